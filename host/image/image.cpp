@@ -1,0 +1,29 @@
+#include "image/image.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <new>
+
+namespace slant {
+
+Image::Image(Rect window, std::vector<std::string> names)
+    : dataWindow(window), displayWindow(window), channels(std::move(names)) {
+    try {
+        pixels.resize(dataWindow.area() * channels.size());
+    } catch (const std::bad_alloc&) {
+        throw Error(ErrorCode::resources,
+                    fmt::format("no memory for an image of {}x{} pixels", width(), height()));
+    }
+}
+
+Image Image::rgb(int width, int height) {
+    return Image({0, 0, width, height}, {"R", "G", "B"});
+}
+
+int Image::channel(const std::string& name) const {
+    const auto found = std::find(channels.begin(), channels.end(), name);
+    return found == channels.end() ? -1 : int(found - channels.begin());
+}
+
+} // namespace slant

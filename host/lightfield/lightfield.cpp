@@ -1,0 +1,64 @@
+#include "lightfield/lightfield.h"
+
+#include "base/parallel.h"
+
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+namespace slant {
+namespace {
+
+/// Largest |(u, v)|: rounding may put a sample of the rim a little outside.
+constexpr float kLensRadiusBound = 1.0001f;
+
+/// Clears what is not finite or negative in one component; tells which.
+void repairComponent(float& value, bool& nonFinite, bool& negative) {
+    if (!std::isfinite(value)) {
+        nonFinite = true;
+        value = 0;
+    } else if (value < 0) {
+        negative = true;
+        value = 0;
+    }
+}
+
+void repair(LightFieldSample& s, FieldDefects& defects) {
+    bool nonFinite = false, negative = false;
+    for (float* component : {&s.r, &s.g, &s.b}) repairComponent(*component, nonFinite, negative);
+    defects.nonFiniteRadiance += nonFinite;
+    defects.negativeRadiance += negative;
+
+    const bool badDepth = !(s.w > 0);
+    const bool outsideLens = !(s.u * s.u + s.v * s.v <= kLensRadiusBound * kLensRadiusBound);
+    const bool badPosition =
+        !std::isfinite(s.x) || !std::isfinite(s.y) || !std::isfinite(s.t) || !std::isfinite(s.slope);
+    defects.badDepth += badDepth;
+    defects.outsideLens += outsideLens;
+    defects.badPosition += badPosition;
+    if (badDepth || outsideLens || badPosition) s.slope = std::numeric_limits<float>::quiet_NaN();
+}
+
+} // namespace
+
+std::uint64_t FieldDefects::total() const {
+    return nonFiniteRadiance + negativeRadiance + badDepth + outsideLens + badPosition;
+}
+
+FieldDefects sanitize(LightField& field) {
+    FieldDefects sum;
+    std::mutex mutex;
+    parallelFor(0, field.samples.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
+        FieldDefects local;
+        for (std::size_t i = first; i < last; ++i) repair(field.samples[i], local);
+        const std::lock_guard lock(mutex);
+        sum.nonFiniteRadiance += local.nonFiniteRadiance;
+        sum.negativeRadiance += local.negativeRadiance;
+        sum.badDepth += local.badDepth;
+        sum.outsideLens += local.outsideLens;
+        sum.badPosition += local.badPosition;
+    });
+    return sum;
+}
+
+} // namespace slant

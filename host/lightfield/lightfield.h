@@ -1,0 +1,65 @@
+// The light field: the contract between whoever traces samples and whoever reconstructs an image from them.
+#pragma once
+#include "base/rect.h"
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace slant {
+
+/// One sample of the light field: what a ray through raster position (x, y), lens position (u, v) at shutter
+/// time t saw. Twelve floats, three texels: uploaded as it is.
+///
+/// - x, y: raster position in pixels, y downwards; pixel (i, j) covers [i, i+1) x [j, j+1).
+/// - u, v: lens position in the unit disc, in raster orientation: u to the right, v downwards, so that a
+///   fixed point of slope s is seen at x + (u' - u) s, y + (v' - v) s from lens position (u', v').
+/// - t: shutter time in [0, 1).
+/// - w: camera-space depth > 0 along the viewing axis; +infinity where nothing was hit.
+/// - slope: pixels per lens radius, for a thin lens C1/w + C2 with C1 < 0: the nearer, the smaller.
+/// - r, g, b: linear radiance.
+/// - alpha: 1 where something was hit, else 0.
+struct LightFieldSample {
+    float x, y, u, v;
+    float t, w, slope, alpha;
+    float r, g, b, unused;
+};
+static_assert(sizeof(LightFieldSample) == 48);
+
+/// Guides for denoisers and compositors, one a sample.
+struct AuxiliarySample {
+    glm::vec3 albedo; ///< in [0, 1]
+    glm::vec3 normal; ///< world space, unit length, towards the camera; 0 where nothing was hit
+};
+
+/// slope(w) = c1 / w + c2, in pixels per lens radius (METHODS: thin lens).
+struct SlopeModel {
+    float c1 = 0, c2 = 0;
+    float operator()(float w) const { return c1 / w + c2; }
+};
+
+/// Samples in the order row, column, sample of a pixel: pixel (i, j) of `bounds` holds samples
+/// [((j - y0) * width + (i - x0)) * samplesPerPixel, ...+ samplesPerPixel), each of them inside that pixel.
+struct LightField {
+    Rect bounds; ///< pixels with samples: the frame and its overscan
+    Rect frame;  ///< pixels of the picture to reconstruct
+    int samplesPerPixel = 0;
+    SlopeModel slopeModel;
+    std::vector<LightFieldSample> samples;
+    std::vector<AuxiliarySample> auxiliary; ///< empty, or one a sample
+};
+
+/// What `sanitize` met; each count is of samples.
+struct FieldDefects {
+    std::uint64_t nonFiniteRadiance = 0; ///< set to 0
+    std::uint64_t negativeRadiance = 0;  ///< components below zero set to 0
+    std::uint64_t badDepth = 0;    ///< w <= 0 or NaN: the sample is disabled (slope = NaN, never binned)
+    std::uint64_t outsideLens = 0; ///< u, v outside the unit disc or NaN: disabled
+    std::uint64_t badPosition = 0; ///< x, y, t or slope not finite: disabled
+    std::uint64_t total() const;
+};
+
+/// Applies the rules of FieldDefects to every sample, in place; reconstruction expects a sanitized field.
+FieldDefects sanitize(LightField& field);
+
+} // namespace slant

@@ -1,0 +1,188 @@
+// A scene as plain data: what a pbrt-v4 file of the supported subset says, resolved (includes read, meshes
+// and images loaded, named things turned into indices, defaults filled in, transforms composed), with pbrt's
+// meaning and units. No Embree, no shading here.
+//
+// Conventions are pbrt's: left-handed world, camera looks along +z, transforms act on column vectors,
+// colours are linear Rec.709 RGB. Every `...Index` refers into the vector of that name in Scene; -1 = none.
+#pragma once
+#include "base/error.h"
+#include "base/rect.h"
+#include "image/image.h"
+
+#include <array>
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace slant {
+
+/// A transform at shutter open and close; equal where nothing moves.
+struct MovingTransform {
+    std::array<glm::dmat4, 2> at{glm::dmat4(1.0), glm::dmat4(1.0)};
+    bool moves() const { return at[0] != at[1]; }
+};
+
+// ---------------------------------------------------------------- film, filter, camera
+
+enum class FilterKind { box, triangle, gaussian, mitchell, sinc };
+
+/// pbrt-v4 PixelFilter; radii in pixels. The filter is separable: f(x) f(y).
+struct PixelFilter {
+    FilterKind kind = FilterKind::gaussian;
+    glm::vec2 radius{1.5f, 1.5f};
+    float sigma = 0.5f;             ///< gaussian
+    float b = 1.f / 3, c = 1.f / 3; ///< mitchell
+    float tau = 3;                  ///< sinc (Lanczos-windowed)
+};
+
+/// Film "rgb". Radiance is multiplied by `imagingRatio` (pbrt's exposure, iso, sensor "cie1931").
+struct Film {
+    int xResolution = 1280, yResolution = 720;
+    Rect crop{0, 0, 1280, 720}; ///< pixels to render, inside the resolution
+    std::string filename = "pbrt.exr";
+    float imagingRatio = 1;
+    float maxComponentValue = 0; ///< samples are scaled down to it; 0 = no limit
+};
+
+/// Camera "perspective".
+struct PerspectiveCamera {
+    MovingTransform worldFromCamera;
+    float fovDegrees = 90;                        ///< of the shorter axis
+    float lensRadius = 0;                         ///< world units; 0 = pinhole
+    float focalDistance = 1e6f;                   ///< distance along z of the plane in focus
+    glm::vec2 screenMin{-1, -1}, screenMax{1, 1}; ///< screen window after frameaspectratio and its default
+    float shutterOpen = 0, shutterClose = 1;
+};
+
+// ---------------------------------------------------------------- textures, materials
+
+enum class TextureKind { constant, scale, mix, checkerboard, imagemap };
+enum class TextureMapping { uv, planar };
+enum class WrapMode { repeat, black, clamp, octahedralSphere };
+enum class TexelFilter {
+    point,
+    bilinear
+}; ///< trilinear and EWA are read as bilinear: no ray footprints here
+
+/// One node of a texture graph. Float textures use .x of `value`. Children have a smaller index than their
+/// parents, so evaluating a graph always ends.
+struct Texture {
+    TextureKind kind = TextureKind::constant;
+    glm::vec3 value{1}; ///< constant
+    std::array<int, 3> child{-1, -1,
+                             -1}; ///< scale: tex, scale; mix: tex1, tex2, amount; checkerboard: tex1, tex2
+    TextureMapping mapping = TextureMapping::uv;
+    glm::vec2 uvScale{1, 1}, uvDelta{0, 0};         ///< uv: st = uvScale * uv + uvDelta
+    glm::dmat4 textureFromWorld{1.0};               ///< planar: applied to the world position before v1, v2
+    glm::vec3 planarV1{1, 0, 0}, planarV2{0, 1, 0}; ///< planar: st = (dot(p, v1), dot(p, v2)) + uvDelta
+    int imageIndex = -1; ///< imagemap; texels are linear, colour encoding already undone
+    WrapMode wrap = WrapMode::repeat;
+    TexelFilter filter = TexelFilter::bilinear;
+    float scale = 1;     ///< imagemap
+    bool invert = false; ///< imagemap: value -> 1 - value
+};
+
+enum class MaterialKind { diffuse, coatedDiffuse, conductor };
+
+/// Parameters are texture indices (constants are textures too); those that a kind does not have are -1.
+struct Material {
+    MaterialKind kind = MaterialKind::diffuse;
+    int reflectance = -1;                 ///< diffuse, coatedDiffuse; conductor: instead of eta, k
+    int uRoughness = -1, vRoughness = -1; ///< coatedDiffuse, conductor (float textures)
+    bool remapRoughness = true;           ///< alpha = sqrt(roughness)
+    int eta = -1, k = -1;                 ///< conductor: RGB index and absorption
+    float interfaceEta = 1.5f;            ///< coatedDiffuse
+    int thickness = -1;                   ///< coatedDiffuse (float texture)
+    float g = 0;                          ///< coatedDiffuse: medium asymmetry
+    int albedo = -1;                      ///< coatedDiffuse: medium albedo
+    int maxDepth = 10, sampleCount = 1;   ///< coatedDiffuse: pbrt's random-walk limits
+};
+
+// ---------------------------------------------------------------- shapes
+
+/// In object space. `normals`, `uvs` are empty or as many as `positions`.
+struct Mesh {
+    enum class Kind { triangles, bilinearPatches } kind = Kind::triangles;
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;
+    std::vector<glm::vec2> uvs;
+    std::vector<std::uint32_t> indices; ///< 3 a triangle; 4 a bilinear patch (p00, p10, p01, p11)
+};
+
+enum class ShapeKind { mesh, sphere, disk };
+
+/// One shape as the file has it. Meshes may be shared between shapes.
+struct Shape {
+    ShapeKind kind = ShapeKind::mesh;
+    int meshIndex = -1;
+    float radius = 1;                  ///< sphere, disk
+    float zMin = -1, zMax = 1;         ///< sphere
+    float height = 0, innerRadius = 0; ///< disk
+    float phiMaxDegrees = 360;         ///< sphere, disk
+    MovingTransform worldFromObject;   ///< inside an object definition: instance space from object space
+    bool reverseOrientation = false;
+    int materialIndex = -1; ///< never -1 after parsing
+    int areaLightIndex = -1;
+    FileLocation location; ///< for late errors
+};
+
+/// ObjectBegin ... ObjectEnd. Emission inside is dropped, as in pbrt, with a warning at parse time.
+struct ObjectDefinition {
+    std::string name;
+    std::vector<Shape> shapes;
+};
+
+struct ObjectInstance {
+    int objectIndex = -1;
+    MovingTransform worldFromInstance;
+};
+
+// ---------------------------------------------------------------- lights
+
+/// AreaLightSource "diffuse". Emitted radiance is `radiance` * `scale`, unless `power` (W) is set: then it is
+/// scaled so that the whole shape emits that power, as pbrt does.
+struct AreaLight {
+    glm::vec3 radiance{1};
+    float scale = 1;
+    bool twoSided = false;
+    std::optional<float> power;
+};
+
+enum class LightKind { point, distant, infinite };
+
+struct Light {
+    LightKind kind = LightKind::point;
+    glm::vec3 emission{1}; ///< point: intensity I; distant, infinite: radiance L
+    float scale = 1;
+    std::optional<float> power;       ///< point: W
+    std::optional<float> illuminance; ///< distant, infinite: lux on a surface facing it
+    glm::dmat4 worldFromLight{1.0};
+    glm::vec3 from{0, 0, 0},
+        to{0, 0, 1};     ///< light space; point uses from, distant shines from `from` to `to`
+    int imageIndex = -1; ///< infinite: equal-area octahedral square image, or -1 for a constant
+    FileLocation location;
+};
+
+// ---------------------------------------------------------------- the whole
+
+struct Scene {
+    std::string path; ///< the file it was read from
+    Film film;
+    PixelFilter filter;
+    PerspectiveCamera camera;
+    int pixelSamples = 16;     ///< Sampler "pixelsamples"
+    int maxDepth = 5;          ///< Integrator "path": number of bounces
+    std::vector<Image> images; ///< 1 or 3 channels
+    std::vector<Texture> textures;
+    std::vector<Material> materials;
+    std::vector<Mesh> meshes;
+    std::vector<Shape> shapes;
+    std::vector<ObjectDefinition> objects;
+    std::vector<ObjectInstance> instances;
+    std::vector<AreaLight> areaLights;
+    std::vector<Light> lights;
+};
+
+} // namespace slant
