@@ -3,9 +3,10 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-install(TARGETS slant slant_lib EXPORT slantTargets)
+install(TARGETS slant)
+install(TARGETS slant_lib EXPORT slantTargets)
 install(DIRECTORY host/ DESTINATION include/slant FILES_MATCHING PATTERN "*.h" PATTERN "commands" EXCLUDE)
-install(DIRECTORY shaders/shared DESTINATION include/slant)
+install(DIRECTORY shaders/ DESTINATION include/slant FILES_MATCHING REGEX "/shared/[^/]*\\.h$" PATTERN "lib" EXCLUDE)
 install(EXPORT slantTargets NAMESPACE slant:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/slant)
 configure_package_config_file(cmake/slantConfig.cmake.in "${PROJECT_BINARY_DIR}/slantConfig.cmake"
     INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/slant)
