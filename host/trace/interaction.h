@@ -1,5 +1,7 @@
 // What passes between the geometry side of the tracer (Embree) and its shading side.
 #pragma once
+#include <bit>
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
 
@@ -15,24 +17,53 @@ struct Ray {
 
 /// Which emitting surface piece was hit, for multiple importance sampling.
 struct EmitterId {
-    int light =
-        -1; ///< index into Lights' list of emitters (one a shape with an area light); -1 = does not emit
+    /// Index into Lights' list of emitters: those of Scene::shapes with an area light, counted in their order
+    /// (shapes of object definitions never emit). -1 = does not emit.
+    int light = -1;
     int primitive = 0; ///< triangle or patch of the mesh; 0 for quadrics
     bool operator==(const EmitterId&) const = default;
 };
 
 /// Where a ray met a surface; world space.
 struct SurfaceHit {
-    float t = 0;
+    float t = std::numeric_limits<float>::infinity(); ///< infinity where nothing was hit
     glm::vec3 position{0};
     glm::vec3 geometricNormal{
-        0}; ///< unit; pbrt's n: flipped by ReverseOrientation, handedness and shading normals
-    glm::vec3 shadingNormal{0}; ///< unit; on the side of pbrt's ns
-    glm::vec3 dpdu{0};          ///< not normalised
+        0}; ///< unit; pbrt's n: flipped by ReverseOrientation, handedness, shading normals
+    glm::vec3 shadingNormal{0}; ///< unit; pbrt's ns: on the side of geometricNormal
+    glm::vec3 dpdu{0};          ///< pbrt's shading dpdu; not normalised
     glm::vec2 uv{0};
     glm::vec3 positionError{0}; ///< bound on |error| of each coordinate, for offsetting new rays
     int materialIndex = -1;
     EmitterId emitter;
+
+    bool hit() const { return materialIndex >= 0; }
 };
+
+/// Origin of a ray that leaves a surface along w without meeting it again: beyond the error bounds of the
+/// position on the side of w (Pharr, Jakob, Humphreys: Physically Based Rendering, "Robust spawned ray
+/// origins").
+inline glm::vec3 offsetRayOrigin(glm::vec3 position, glm::vec3 positionError, glm::vec3 normal, glm::vec3 w) {
+    float distance = glm::dot(glm::abs(normal), positionError);
+    if (glm::dot(w, normal) < 0) distance = -distance;
+    glm::vec3 origin = position + distance * normal;
+    for (int axis = 0; axis < 3; ++axis) { // round away from the surface
+        float step = distance * normal[axis];
+        if (step == 0) continue;
+        float& value = origin[axis];
+        if (value == 0)
+            value = step > 0 ? std::numeric_limits<float>::denorm_min()
+                             : -std::numeric_limits<float>::denorm_min();
+        else
+            value = std::bit_cast<float>(std::bit_cast<std::uint32_t>(value) +
+                                         ((step > 0) == (value > 0) ? 1u : ~0u));
+    }
+    return origin;
+}
+
+/// A point of object space in world space; every user of a shape's vertices must round them alike.
+inline glm::vec3 transformPoint(const glm::dmat4& worldFromObject, glm::vec3 p) {
+    return glm::vec3(worldFromObject * glm::dvec4(p, 1.0));
+}
 
 } // namespace slant
