@@ -1,0 +1,16 @@
+// "Did you mean": the nearest of a list of names to a misspelt one.
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace slant {
+
+/// The candidate with the fewest edits (insert, delete, replace, swap neighbours; Damerau 1964) from `word`,
+/// letter case aside; empty if none is within a third of the word's length (at least one edit).
+std::string closestName(std::string_view word, std::span<const std::string> candidates);
+
+/// ", did you mean 'NAME'?" for the end of a message, or nothing.
+std::string didYouMean(std::string_view word, std::span<const std::string> candidates);
+
+} // namespace slant
