@@ -1,0 +1,16 @@
+// The subcommands of the program. A command is one file commands/NAME.cpp that exposes one function, which
+// adds the subcommand, its options and a callback that does the work; it is declared here and listed in
+// kCommands. Callbacks throw slant::Error (or CLI::ParseError for wrong options); main turns these into
+// exit statuses.
+#pragma once
+#include <CLI/CLI.hpp>
+#include <initializer_list>
+
+namespace slant::commands {
+
+using AddCommand = void (*)(CLI::App& program);
+
+/// In the order in which `slant --help` lists them.
+inline constexpr std::initializer_list<AddCommand> kCommands = {};
+
+} // namespace slant::commands

@@ -1,0 +1,13 @@
+// Ctrl-C and SIGTERM ask the program to stop; it does so at the next Monitor::advance, so that destructors
+// run and no temporary file is left behind.
+#pragma once
+
+namespace slant::commands {
+
+/// From now on the first SIGINT or SIGTERM only sets a flag; a second one of the same kind ends at once.
+void catchInterrupts();
+
+/// Whether such a signal has come. Any thread.
+bool interrupted();
+
+} // namespace slant::commands

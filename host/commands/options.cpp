@@ -1,0 +1,99 @@
+#include "commands/options.h"
+
+#include "base/suggest.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <vector>
+
+namespace slant::commands {
+namespace {
+
+const std::vector<std::string> kMethods = {"box", "full"};
+constexpr int kMaxCoordinate = 1 << 20;
+
+} // namespace
+
+std::optional<std::uint64_t> parseSize(std::string_view text) {
+    constexpr std::string_view kSuffixes = "KMGT";
+    int shift = 0;
+    if (!text.empty()) {
+        const std::size_t suffix = kSuffixes.find(text.back());
+        if (suffix != std::string_view::npos) {
+            shift = 10 * (int(suffix) + 1);
+            text.remove_suffix(1);
+        }
+    }
+    const auto count = parseNumber<std::uint64_t>(text);
+    if (!count || *count > std::numeric_limits<std::uint64_t>::max() >> shift) return {};
+    return *count << shift;
+}
+
+std::optional<Rect> parseCrop(std::string_view text) {
+    std::array<int, 4> bounds{};
+    for (std::size_t i = 0; i < bounds.size(); ++i) {
+        const std::size_t comma = text.find(',');
+        if ((comma == std::string_view::npos) != (i == 3)) return {};
+        const auto number = parseNumber<int>(text.substr(0, comma));
+        if (!number || *number < -kMaxCoordinate || *number > kMaxCoordinate) return {};
+        bounds[i] = *number;
+        if (i < 3) text.remove_prefix(comma + 1);
+    }
+    const Rect crop{bounds[0], bounds[2], bounds[1], bounds[3]};
+    if (crop.empty()) return {};
+    return crop;
+}
+
+void addSamplingOptions(CLI::App& command, CommonOptions& options) {
+    addNumber<int>(command, "--spp", options.spp, 1, kMaxSamplesPerPixel,
+                   "samples a pixel (default: the scene's pixelsamples)");
+    addNumber<std::uint64_t>(command, "--seed", options.seed, 0, std::numeric_limits<std::uint64_t>::max(),
+                             "of the sampling pattern (default 0)");
+    const auto crop = [&options](const std::string& text) {
+        options.crop = parseCrop(text);
+        if (!options.crop)
+            throw CLI::ValidationError("--crop", fmt::format("'{}' is not x0,x1,y0,y1 in pixels with x0 < x1 "
+                                                             "and y0 < y1",
+                                                             text));
+    };
+    command.add_option_function<std::string>("--crop", crop, "pixels to render (default: the scene's)")
+        ->type_name("x0,x1,y0,y1");
+}
+
+void addReconstructionOptions(CLI::App& command, CommonOptions& options) {
+    addNumber<int>(command, "--out-spp", options.outSpp, 1, kMaxSamplesPerPixel,
+                   "reconstructed samples a pixel (default 128)");
+    const auto method = [&options](const std::string& text) {
+        if (std::find(kMethods.begin(), kMethods.end(), text) == kMethods.end())
+            throw CLI::ValidationError("--method",
+                                       fmt::format("'{}' is none of {}{}", text, fmt::join(kMethods, ", "),
+                                                   didYouMean(text, kMethods)));
+        options.method = text;
+    };
+    command
+        .add_option_function<std::string>(
+            "--method", method, fmt::format("{} (default {})", fmt::join(kMethods, " or "), options.method))
+        ->type_name("NAME");
+    command
+        .add_option("--device", options.device, "auto, cpu, or part of a Vulkan device's name (default auto)")
+        ->type_name("NAME");
+    const auto memory = [&options](const std::string& text) {
+        const auto size = parseSize(text);
+        if (!size || *size < std::uint64_t(16) << 20)
+            throw CLI::ValidationError(
+                "--memory", fmt::format("'{}' is not a size such as 512M or 2G, at least 16M", text));
+        options.memoryBytes = *size;
+    };
+    command.add_option_function<std::string>("--memory", memory, "budget of the reconstruction (default 1G)")
+        ->type_name("SIZE");
+}
+
+void addRunOptions(CLI::App& command, CommonOptions& options) {
+    addNumber<int>(command, "--threads", options.threads, 0, 1024, "threads (default 0: one a core)");
+    command.add_flag("--quiet", options.quiet, "no progress on stderr");
+    command.add_option("--stats", options.statsPath, "write seconds, items and rates of each stage as JSON")
+        ->type_name("FILE.json");
+}
+
+} // namespace slant::commands

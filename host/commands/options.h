@@ -1,0 +1,70 @@
+// Options that several commands share, checked as they are parsed: whatever is out of range is a usage error.
+#pragma once
+#include "base/rect.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cstdint>
+#include <fmt/format.h>
+#include <optional>
+#include <string>
+
+namespace slant::commands {
+
+inline constexpr int kMaxSamplesPerPixel = 1 << 16;
+
+struct CommonOptions {
+    // What to sample.
+    std::optional<int> spp; ///< input samples a pixel; unset: what the scene asks for
+    std::uint64_t seed = 0;
+    std::optional<Rect> crop; ///< pixels; unset: what the scene asks for
+    // How to reconstruct.
+    int outSpp = 128; ///< output samples a pixel
+    std::string method = "full";
+    std::string device = "auto";                        ///< auto, cpu, or part of a device's name
+    std::uint64_t memoryBytes = std::uint64_t(1) << 30; ///< for dense samples and intermediate buffers
+    // How to run.
+    int threads = 0; ///< 0 = all cores
+    bool quiet = false;
+    std::string statsPath; ///< empty: none
+};
+
+/// --spp, --seed, --crop
+void addSamplingOptions(CLI::App& command, CommonOptions& options);
+/// --out-spp, --method, --device, --memory
+void addReconstructionOptions(CLI::App& command, CommonOptions& options);
+/// --threads, --quiet, --stats
+void addRunOptions(CLI::App& command, CommonOptions& options);
+
+/// The whole of `text` as a number, without sign of plus, hexadecimal, spaces; nothing if it is none or if it
+/// is not finite.
+template <typename Number>
+std::optional<Number> parseNumber(std::string_view text) {
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) return {};
+    if (!(value - value == 0)) return {};
+    return value;
+}
+
+/// Bytes of "4096", "64K", "512M" or "2G" (powers of 1024).
+std::optional<std::uint64_t> parseSize(std::string_view text);
+
+/// Pixels of "x0,x1,y0,y1", half-open; nothing if it is malformed or empty.
+std::optional<Rect> parseCrop(std::string_view text);
+
+/// An option with a number within [lowest, highest].
+template <typename Number, typename Target>
+CLI::Option* addNumber(CLI::App& command, const std::string& name, Target& value, Number lowest,
+                       Number highest, const std::string& help) {
+    const auto parse = [&value, name, lowest, highest](const std::string& text) {
+        const std::optional<Number> number = parseNumber<Number>(text);
+        if (!number || *number < lowest || *number > highest)
+            throw CLI::ValidationError(
+                name, fmt::format("'{}' is not a number from {} to {}", text, lowest, highest));
+        value = *number;
+    };
+    return command.add_option_function<std::string>(name, parse, help)->type_name("N");
+}
+
+} // namespace slant::commands

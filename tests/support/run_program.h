@@ -1,0 +1,42 @@
+// Runs the built program as a person would.
+#pragma once
+#include "support/temp_dir.h"
+
+#include <algorithm>
+#include <string>
+#include <sys/wait.h>
+#include <vector>
+
+namespace slant::test {
+
+struct ProgramResult {
+    int status = -1; ///< exit status; 128 + signal if one ended it
+    std::string out, err;
+
+    long errorLines() const { return std::count(err.begin(), err.end(), '\n'); }
+};
+
+inline std::string shellQuote(const std::string& word) {
+    std::string quoted = "'";
+    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
+}
+
+/// Runs words[0] with the rest as arguments, stdin empty.
+inline ProgramResult runWords(const std::vector<std::string>& words) {
+    const TempDir dir;
+    std::string command;
+    for (const std::string& word : words) command += shellQuote(word) + ' ';
+    command += "</dev/null >" + shellQuote(dir.file("out")) + " 2>" + shellQuote(dir.file("err"));
+    const int wait = std::system(command.c_str());
+    const int status = WIFEXITED(wait) ? WEXITSTATUS(wait) : 128 + WTERMSIG(wait);
+    return {status, readText(dir.file("out")), readText(dir.file("err"))};
+}
+
+/// Runs slant.
+inline ProgramResult runSlant(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), SLANT_PROGRAM);
+    return runWords(arguments);
+}
+
+} // namespace slant::test
