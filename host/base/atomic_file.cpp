@@ -56,16 +56,6 @@ void AtomicFile::write(const void* data, std::size_t bytes) {
     if (std::fwrite(data, 1, bytes, stream_) != bytes) fail();
 }
 
-std::uint64_t AtomicFile::position() const {
-    const off_t offset = ftello(stream_);
-    if (offset < 0) fail();
-    return std::uint64_t(offset);
-}
-
-void AtomicFile::seek(std::uint64_t position) {
-    if (fseeko(stream_, off_t(position), SEEK_SET) != 0) fail();
-}
-
 void AtomicFile::commit() {
     if (std::fclose(std::exchange(stream_, nullptr)) != 0) fail();
     if (temporary_.empty()) return;

@@ -2,7 +2,6 @@
 // renamed over it when all went well.
 #pragma once
 #include <cstddef>
-#include <cstdint>
 #include <cstdio>
 #include <string>
 #include <string_view>
@@ -21,8 +20,6 @@ public:
 
     void write(const void* data, std::size_t bytes);
     void write(std::string_view text) { write(text.data(), text.size()); }
-    std::uint64_t position() const;
-    void seek(std::uint64_t position);
     /// Makes the file complete under its name. Nothing may be written afterwards.
     void commit();
 
