@@ -1,6 +1,8 @@
-# GLSL -> SPIR-V -> validated -> embedded as constexpr words, all at build time.
+# GLSL -> SPIR-V -> exact arithmetic -> validated -> embedded as constexpr words, all at build time.
 
 find_program(GLSLANG glslangValidator REQUIRED)
+find_program(SPIRV_DIS spirv-dis REQUIRED)
+find_program(SPIRV_AS spirv-as REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)
 
 # Compiles every shaders/*.comp, and makes "shaders_embedded.h" with one array kNAME a shader for `target`.
@@ -14,8 +16,10 @@ function(slant_embed_shaders target)
         add_custom_command(OUTPUT "${module}"
             COMMAND "${GLSLANG}" --quiet -V --target-env vulkan1.2 "-I${PROJECT_SOURCE_DIR}/shaders"
                     --depfile "${module}.d" -o "${module}" "${shader}"
+            COMMAND "${CMAKE_COMMAND}" "-DMODULE=${module}" "-DSPIRV_DIS=${SPIRV_DIS}" "-DSPIRV_AS=${SPIRV_AS}"
+                    -P "${PROJECT_SOURCE_DIR}/cmake/ExactArithmetic.cmake"
             COMMAND "${SPIRV_VAL}" --target-env vulkan1.2 "${module}"
-            DEPENDS "${shader}" DEPFILE "${module}.d"
+            DEPENDS "${shader}" "${PROJECT_SOURCE_DIR}/cmake/ExactArithmetic.cmake" DEPFILE "${module}.d"
             COMMENT "Shader ${name}" VERBATIM)
         list(APPEND spirv "${module}")
     endforeach()

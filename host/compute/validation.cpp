@@ -1,0 +1,28 @@
+#include "compute/validation.h"
+
+#include <utility>
+
+namespace slant {
+
+vk::DebugUtilsMessengerCreateInfoEXT ValidationLog::messengerInfo() {
+    using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
+    using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
+    // Type eGeneral stays out: the loader uses it to grumble about drivers that have nothing to do with us.
+    return vk::DebugUtilsMessengerCreateInfoEXT({}, Severity::eWarning | Severity::eError,
+                                                Type::eValidation | Type::ePerformance, &receive, this);
+}
+
+std::vector<std::string> ValidationLog::take() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(messages_, {});
+}
+
+VkBool32 ValidationLog::receive(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                                const VkDebugUtilsMessengerCallbackDataEXT* data, void* log) {
+    auto& self = *static_cast<ValidationLog*>(log);
+    const std::lock_guard lock(self.mutex_);
+    self.messages_.emplace_back(data->pMessage);
+    return VK_FALSE;
+}
+
+} // namespace slant
