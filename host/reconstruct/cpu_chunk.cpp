@@ -1,0 +1,105 @@
+#include "reconstruct/cpu_chunk.h"
+
+#include "base/parallel.h"
+
+#include <algorithm>
+
+namespace slant {
+namespace {
+
+SearchContext contextOf(const Bins& bins, const TileLists& lists, std::size_t list) {
+    const uint first = lists.start[list], last = lists.start[list + 1];
+    return {bins, std::span(lists.bricks).subspan(first, last - first)};
+}
+
+} // namespace
+
+CpuChunk::CpuChunk(const Bins& bins, const OutputPattern& pattern, const Band& band, std::size_t firstGroup,
+                   std::size_t groupCount)
+    : bins_(bins), pattern_(pattern), band_(band), groups_(pattern.groups.data() + firstGroup, groupCount),
+      firstOutput_(int(firstGroup) * kOutputsPerGroup),
+      outputCount_(std::min(int(groupCount) * kOutputsPerGroup, pattern.outputsPerPixel() - firstOutput_)) {
+    dense.region = band.region;
+    dense.samples.resize(band.region.area() * outputCount_);
+}
+
+void CpuChunk::run(Monitor& monitor, ReconstructReport& report) {
+    lists = makeTileLists(bins_, band_.layout, groups_, 2 * bins_.grid.radiusPx);
+    const std::size_t tiles = std::size_t(band_.layout.tileCount.x) * band_.layout.tileCount.y;
+    parallelFor(0, tiles, 1, [&](std::size_t first, std::size_t last) {
+        Counts counts;
+        for (std::size_t tile = first; tile < last; ++tile) runTile(tile, counts);
+        add(counts);
+        monitor.advance(counts.outputs);
+    });
+    report.outputs += counts_.outputs;
+    report.visibility += counts_.visibility;
+    report.widened += counts_.holes.size();
+    widen(report);
+}
+
+CpuChunk::Slot CpuChunk::slotAt(ivec2 position, int output) const {
+    const OutputLayout& layout = band_.layout;
+    const std::size_t tiles = std::size_t(layout.tileCount.x) * layout.tileCount.y;
+    const ivec2 tile = position / kTileSize;
+    return {output * band_.region.area() + std::size_t(position.y) * layout.regionSize.x + position.x,
+            output / kOutputsPerGroup * tiles + std::size_t(tile.y) * layout.tileCount.x + tile.x,
+            layout.regionOrigin + position, output};
+}
+
+Output CpuChunk::at(const Slot& slot) const {
+    const int output = firstOutput_ + slot.output;
+    return outputAt(slot.pixel, output, pattern_.entries[output], pattern_.lensCells, band_.layout.seed);
+}
+
+void CpuChunk::store(const Slot& slot, const Output& output, const Reconstructed& result) {
+    dense.samples[slot.sample] =
+        result.outcome == Outcome::resolved ? vec4(result.rgb, output.positionCode) : vec4(0, 0, 0, -1);
+}
+
+void CpuChunk::runTile(std::size_t tile, Counts& counts) {
+    const OutputLayout& layout = band_.layout;
+    const ivec2 corner = kTileSize * ivec2(int(tile) % layout.tileCount.x, int(tile) / layout.tileCount.x);
+    const ivec2 end = glm::min(corner + kTileSize, layout.regionSize);
+    for (int k = 0; k < outputCount_; ++k)
+        for (int y = corner.y; y < end.y; ++y)
+            for (int x = corner.x; x < end.x; ++x) {
+                const Slot slot = slotAt(ivec2(x, y), k);
+                const Output output = at(slot);
+                const SearchContext context = contextOf(bins_, lists, slot.list);
+                Reconstructed result = reconstructNearest(context, output);
+                if (result.outcome == Outcome::needsVisibility) {
+                    ++counts.visibility;
+                    result = resolveVisibility(context, output, bins_.grid.radiusPx);
+                }
+                if (result.outcome == Outcome::hole) counts.holes.push_back(slot);
+                store(slot, output, result);
+                ++counts.outputs;
+            }
+}
+
+void CpuChunk::add(const Counts& counts) {
+    const std::lock_guard lock(mutex_);
+    counts_.outputs += counts.outputs;
+    counts_.visibility += counts.visibility;
+    counts_.holes.insert(counts_.holes.end(), counts.holes.begin(), counts.holes.end());
+}
+
+/// Outputs that found nothing within 2 R look further, with lists made for it.
+void CpuChunk::widen(ReconstructReport& report) {
+    std::vector<Slot> holes = counts_.holes;
+    float radius = bins_.grid.radiusPx;
+    for (int step = 0; step < kWidenings && !holes.empty(); ++step) {
+        radius *= 2;
+        const TileLists wide = makeTileLists(bins_, band_.layout, groups_, 2 * radius);
+        std::erase_if(holes, [&](const Slot& slot) {
+            const Output output = at(slot);
+            const Reconstructed result = resolveVisibility(contextOf(bins_, wide, slot.list), output, radius);
+            store(slot, output, result);
+            return result.outcome == Outcome::resolved;
+        });
+    }
+    report.holes += holes.size();
+}
+
+} // namespace slant

@@ -1,0 +1,53 @@
+// The CPU reconstruction of one chunk: some lens groups over one band of rows.
+#pragma once
+#include "base/monitor.h"
+#include "reconstruct/film_buffer.h"
+#include "reconstruct/plan.h"
+#include "reconstruct/search.h"
+
+#include <mutex>
+#include <vector>
+
+namespace slant {
+
+/// The outputs of a chunk of lens groups over one band.
+class CpuChunk {
+public:
+    CpuChunk(const Bins& bins, const OutputPattern& pattern, const Band& band, std::size_t firstGroup,
+             std::size_t groupCount);
+
+    /// Lists, then every output; progress in outputs. Adds to the counts of `report`.
+    void run(Monitor& monitor, ReconstructReport& report);
+
+    DenseSamples dense;
+    TileLists lists;
+
+private:
+    /// Where an output is stored, and in which list its bricks stand.
+    struct Slot {
+        std::size_t sample, list;
+        ivec2 pixel;
+        int output; ///< within the chunk
+    };
+    struct Counts {
+        std::uint64_t outputs = 0, visibility = 0;
+        std::vector<Slot> holes;
+    };
+
+    Slot slotAt(ivec2 position, int output) const;
+    Output at(const Slot& slot) const;
+    void store(const Slot& slot, const Output& output, const Reconstructed& result);
+    void runTile(std::size_t tile, Counts& counts);
+    void add(const Counts& counts);
+    void widen(ReconstructReport& report);
+
+    const Bins& bins_;
+    const OutputPattern& pattern_;
+    const Band& band_;
+    std::span<const LensBox> groups_;
+    int firstOutput_, outputCount_;
+    std::mutex mutex_;
+    Counts counts_;
+};
+
+} // namespace slant

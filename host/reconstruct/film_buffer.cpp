@@ -1,0 +1,96 @@
+#include "reconstruct/film_buffer.h"
+
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace slant {
+namespace {
+
+/// Weight of a sample at subpixel q of the pixel `offset` pixels away, along one axis. As
+/// lib/pixel_filter.glsl.
+float axisWeight(const FilterTable& filter, int axis, int offset, int q) {
+    const int k = offset * kSubpixels + q - kSubpixels / 2;
+    const int index = k >= 0 ? k : -k - 1;
+    if (index >= filter.length[axis]) return 0;
+    return filter.weights[std::size_t(axis == 0 ? index : filter.length[0] + index)];
+}
+
+vec4 weighted(const FilterTable& filter, const vec4& sample, ivec2 offset) {
+    if (sample.w < 0) return vec4(0);
+    const int code = int(sample.w);
+    const float weight = axisWeight(filter, 0, offset.x, code / kSubpixels) *
+                         axisWeight(filter, 1, offset.y, code % kSubpixels);
+    return vec4(weight * sample.x, weight * sample.y, weight * sample.z, weight);
+}
+
+} // namespace
+
+float positionCode(float fractionX, float fractionY) {
+    const int qx = std::clamp(int(fractionX * kSubpixels), 0, kSubpixels - 1);
+    const int qy = std::clamp(int(fractionY * kSubpixels), 0, kSubpixels - 1);
+    return float(qx * kSubpixels + qy);
+}
+
+FilmBuffer::FilmBuffer(const Rect& frame, FilterTable filter)
+    : frame_(frame), filter_(std::move(filter)), sums_(frame.area(), vec4(0)) {}
+
+void FilmBuffer::accumulate(const DenseSamples& dense, int y0, int y1, int blockSize) {
+    const std::size_t plane = dense.region.area();
+    const int planes = int(dense.samples.size() / std::max<std::size_t>(plane, 1));
+    const ivec2 reach = filter_.reach;
+    parallelFor(std::size_t(y0 - frame_.y0), std::size_t(y1 - frame_.y0), 1,
+                [&](std::size_t first, std::size_t last) {
+                    for (int y = int(first) + frame_.y0; y < int(last) + frame_.y0; ++y)
+                        for (int x = frame_.x0; x < frame_.x1; ++x) {
+                            vec4& sum = sums_[std::size_t(y - frame_.y0) * frame_.width() + (x - frame_.x0)];
+                            for (int block = 0; block < planes; block += blockSize) {
+                                vec4 part(0);
+                                for (int k = block; k < std::min(block + blockSize, planes); ++k)
+                                    for (int dy = -reach.y; dy <= reach.y; ++dy) {
+                                        const vec4* row =
+                                            dense.samples.data() + k * plane +
+                                            std::size_t(y + dy - dense.region.y0) * dense.region.width() +
+                                            (x - dense.region.x0);
+                                        for (int dx = -reach.x; dx <= reach.x; ++dx)
+                                            part += weighted(filter_, row[dx], ivec2(dx, dy));
+                                    }
+                                sum += part;
+                            }
+                        }
+                });
+}
+
+Image FilmBuffer::toImage(std::uint64_t& emptyPixels) const {
+    Image image(frame_, {"R", "G", "B"});
+    emptyPixels = 0;
+    for (std::size_t i = 0; i < sums_.size(); ++i) {
+        const vec4& sum = sums_[i];
+        const bool empty = !(sum.w > 0);
+        emptyPixels += empty;
+        for (int c = 0; c < 3; ++c) image.pixels[3 * i + c] = empty ? 0 : sum[c] / sum.w;
+    }
+    return image;
+}
+
+DenseSamples denseFromInput(std::span<const LightFieldSample> samples, const Rect& bounds,
+                            int samplesPerPixel, const Rect& region) {
+    DenseSamples dense{region, std::vector<vec4>(region.area() * samplesPerPixel, vec4(0, 0, 0, -1))};
+    parallelFor(0, std::size_t(region.height()), 1, [&](std::size_t first, std::size_t last) {
+        for (int j = int(first); j < int(last); ++j)
+            for (int i = 0; i < region.width(); ++i) {
+                const int x = region.x0 + i, y = region.y0 + j;
+                if (!bounds.contains(x, y)) continue;
+                const std::size_t pixel = std::size_t(y - bounds.y0) * bounds.width() + (x - bounds.x0);
+                for (int k = 0; k < samplesPerPixel; ++k) {
+                    const LightFieldSample& s = samples[pixel * samplesPerPixel + k];
+                    dense.samples[k * region.area() + std::size_t(j) * region.width() + i] =
+                        vec4(s.r, s.g, s.b, positionCode(s.x - float(x), s.y - float(y)));
+                }
+            }
+    });
+    return dense;
+}
+
+} // namespace slant

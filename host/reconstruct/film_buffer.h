@@ -1,0 +1,51 @@
+// Stage "pixel_filter": dense samples through the pixel filter into the film, and the film into an image.
+#pragma once
+#include "image/image.h"
+#include "lightfield/lightfield.h"
+#include "reconstruct/filter_table.h"
+
+#include <span>
+#include <vector>
+
+namespace slant {
+
+/// Dense samples of a region of pixels, plane after plane: sample k of pixel (i, j) is
+/// samples[k * region.area() + j * region.width() + i]. rgb, and in w the place in the pixel
+/// (Output::positionCode), negative where there is no sample.
+struct DenseSamples {
+    Rect region;
+    std::vector<vec4> samples;
+};
+
+/// The position code of a place in a pixel, both in [0, 1).
+float positionCode(float fractionX, float fractionY);
+
+/// Sums of weight * rgb and of weight, for each pixel of `frame`.
+class FilmBuffer {
+public:
+    FilmBuffer(const Rect& frame, FilterTable filter);
+
+    /// Adds dense planes to the pixels `rows` (y0 <= y < y1 of the frame), `blockSize` planes at a time: the
+    /// sum does not depend on how planes are split over calls as long as blocks stay whole. dense.region must
+    /// hold the rows and the filter's reach around them.
+    void accumulate(const DenseSamples& dense, int y0, int y1, int blockSize);
+
+    /// Divides by the weights. Pixels without weight are black and counted.
+    Image toImage(std::uint64_t& emptyPixels) const;
+
+    const Rect& frame() const { return frame_; }
+    const FilterTable& filter() const { return filter_; }
+    std::vector<vec4>& sums() { return sums_; }
+    const std::vector<vec4>& sums() const { return sums_; }
+
+private:
+    Rect frame_;
+    FilterTable filter_;
+    std::vector<vec4> sums_;
+};
+
+/// Input samples as dense planes; pixels of `region` outside `bounds` have none.
+DenseSamples denseFromInput(std::span<const LightFieldSample> samples, const Rect& bounds,
+                            int samplesPerPixel, const Rect& region);
+
+} // namespace slant

@@ -1,0 +1,27 @@
+// How the sparse grid over pinhole position and slope is laid out for one light field.
+//
+// A sample seen from the lens centre lies at p = (x, y) - slope (u, v), its pinhole position. An output at
+// (x, y) looking through (u, v) sees it at p + slope (u, v). So samples binned by p and by slope are found in
+// a window of p that is as wide as the slopes of one brick are spread, however large the blur is.
+#pragma once
+#include "lightfield/lightfield.h"
+#include "shared/reconstruct.h"
+
+namespace slant {
+
+/// Radius of the largest empty circle of a pixel pattern, in pixels (METHODS: within 13 %).
+float emptyCircleRadius(int samplesPerPixel);
+
+/// Pinhole position of a sample.
+inline vec2 pinholePosition(const LightFieldSample& s) {
+    return vec2(s.x, s.y) - s.slope * vec2(s.u, s.v);
+}
+
+/// Whether any output in `region` can come to use this sample (false for disabled samples).
+bool reaches(const LightFieldSample& sample, const Rect& region, float marginPx);
+
+/// Lays the grid over all samples that reach `region`; wide blur makes bricks larger and slope buckets wider
+/// rather than tables beyond 2^22 bricks. `marginPx` is the widest search.
+GridLayout chooseGrid(const LightField& field, const Rect& region, float marginPx);
+
+} // namespace slant

@@ -1,0 +1,60 @@
+// The interface of every reconstruction, on whatever device it runs.
+#pragma once
+#include "base/monitor.h"
+#include "image/image.h"
+#include "lightfield/lightfield.h"
+#include "scene/scene.h"
+#include "shared/reconstruct.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace slant {
+
+enum class Method {
+    box,  ///< the pixel filter over the input samples: no reconstruction
+    full, ///< reprojection, apparent surfaces and visibility for every output (METHODS section 2)
+};
+
+struct ReconstructOptions {
+    Method method = Method::full;
+    int outputsPerPixel = 128; ///< a power of two; `box` has none
+    PixelFilter filter;
+    std::uint64_t seed = 0;
+    std::uint64_t memoryBytes = std::uint64_t(1) << 30; ///< for dense samples and lists
+};
+
+/// Receives what a stage made, in the order in which the stages run, as 32-bit words. CPU and compute report
+/// the same stages with the same words, so that the first difference names the stage at fault.
+class StageObserver {
+public:
+    virtual ~StageObserver() = default;
+    virtual void stage(const std::string& name, std::span<const uint> words) = 0;
+};
+
+/// What a run met and cost.
+struct ReconstructReport {
+    std::uint64_t outputs = 0;    ///< reconstructed samples
+    std::uint64_t visibility = 0; ///< of them, those that needed apparent surfaces told apart
+    std::uint64_t widened = 0;    ///< those that found nothing within 2 R
+    std::uint64_t holes = 0;      ///< those that found nothing within 16 R and were left out
+    std::uint64_t overflowed =
+        0; ///< those that met the candidate limit of the compute path and were done on the CPU
+    std::uint64_t emptyPixels = 0; ///< pixels that no sample reached
+    std::vector<StageStats> stages;
+
+    /// The stage of that name, made at the end of the list if there is none.
+    StageStats& stage(const char* name, const char* unit);
+};
+
+class Reconstructor {
+public:
+    virtual ~Reconstructor() = default;
+    /// The picture of field.frame, channels R, G, B. The field must be sanitized. `observer` may be null.
+    virtual Image reconstruct(const LightField& field, const ReconstructOptions& options, Monitor& monitor,
+                              ReconstructReport& report, StageObserver* observer) = 0;
+};
+
+} // namespace slant

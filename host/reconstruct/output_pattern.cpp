@@ -1,0 +1,160 @@
+#include "reconstruct/output_pattern.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace slant {
+namespace {
+
+uint reverseBits(uint x) {
+    x = (x >> 16) | (x << 16);
+    x = ((x & 0xff00ff00u) >> 8) | ((x & 0x00ff00ffu) << 8);
+    x = ((x & 0xf0f0f0f0u) >> 4) | ((x & 0x0f0f0f0fu) << 4);
+    x = ((x & 0xccccccccu) >> 2) | ((x & 0x33333333u) << 2);
+    return ((x & 0xaaaaaaaau) >> 1) | ((x & 0x55555555u) << 1);
+}
+
+/// Direction numbers of one Sobol' dimension from its primitive polynomial (degree, inner coefficients) and
+/// first numbers m (Joe and Kuo 2008, new-joe-kuo-6); degree 0 is the van der Corput sequence.
+std::vector<uint> sobolDirections(int degree, uint coefficients, std::vector<uint> m) {
+    std::vector<uint> v(32);
+    for (int i = 0; i < 32; ++i) {
+        if (degree == 0) {
+            v[i] = 1u << (31 - i);
+        } else if (i < degree) {
+            v[i] = m[i] << (31 - i);
+        } else {
+            v[i] = v[i - degree] ^ (v[i - degree] >> degree);
+            for (int k = 1; k < degree; ++k)
+                if ((coefficients >> (degree - 1 - k)) & 1u) v[i] ^= v[i - k];
+        }
+    }
+    return v;
+}
+
+uint sobol(const std::vector<uint>& directions, uint index) {
+    uint bits = 0;
+    for (int i = 0; index != 0; ++i, index >>= 1)
+        if (index & 1u) bits ^= directions[i];
+    return bits;
+}
+
+/// Interleaves the bits of column and row.
+uint morton(uint column, uint row) {
+    uint code = 0;
+    for (int bit = 0; bit < 16; ++bit)
+        code |= ((column >> bit) & 1u) << (2 * bit) | ((row >> bit) & 1u) << (2 * bit + 1);
+    return code;
+}
+
+/// A box around the image of a rectangle of [-1, 1]^2 in the disc: the curved sides are sampled, and the box
+/// padded by more than what lies between two samples.
+LensBox lensBox(vec2 squareMin, vec2 squareMax) {
+    constexpr int steps = 32;
+    LensBox box{vec2(2), vec2(-2)};
+    for (int j = 0; j <= steps; ++j)
+        for (int i = 0; i <= steps; ++i) {
+            const vec2 square = glm::mix(squareMin, squareMax, vec2(float(i), float(j)) / float(steps));
+            const vec2 uv = concentricDisc(square);
+            box.min = glm::min(box.min, uv);
+            box.max = glm::max(box.max, uv);
+        }
+    const vec2 pad = (box.max - box.min) * 0.01f;
+    return {box.min - pad, box.max + pad};
+}
+
+/// Cells of the lens under the entries [first, last), as one rectangle of [-1, 1]^2.
+LensBox groupBox(const OutputPattern& pattern, std::size_t first, std::size_t last) {
+    vec2 low(2), high(-2);
+    for (std::size_t i = first; i < last; ++i) {
+        const uint cell = pattern.entries[i].w;
+        const vec2 corner =
+            2.f * vec2(float(cell & 0xffffu), float(cell >> 16)) / vec2(pattern.lensCells) - 1.f;
+        low = glm::min(low, corner);
+        high = glm::max(high, corner + 2.f / vec2(pattern.lensCells));
+    }
+    return lensBox(low, high);
+}
+
+uint hash(uint x) {
+    x ^= x >> 16;
+    x *= 0x7feb352du;
+    x ^= x >> 15;
+    x *= 0x846ca68bu;
+    return x ^ (x >> 16);
+}
+
+/// Nested uniform scramble of bit-reversed x (Laine and Karras 2011; constants of Burley 2020, listing 1).
+uint owenScramble(uint reversed, uint seed) {
+    uint x = reversed;
+    x ^= x * 0x3d20adeau;
+    x += seed;
+    x *= (seed >> 16) | 1u;
+    x ^= x * 0x05526c56u;
+    x ^= x * 0x53a22864u;
+    return reverseBits(x);
+}
+
+} // namespace
+
+vec2 concentricDisc(vec2 square) {
+    const float a = square.x, b = square.y;
+    if (a == 0 && b == 0) return vec2(0);
+    const bool wide = glm::abs(a) > glm::abs(b);
+    const float r = wide ? a : b;
+    const float q = wide ? b / a : a / b;
+    const float x = q * 0.785398163f;
+    const float z = x * x;
+    const float sine =
+        x * (1.f + z * (-0.166666667f + z * (0.00833333333f + z * (-0.000198412698f + z * 2.75573192e-6f))));
+    const float cosine = 1.f + z * (-0.5f + z * (0.0416666667f + z * (-0.00138888889f + z * 2.48015873e-5f)));
+    return wide ? vec2(r * cosine, r * sine) : vec2(r * sine, r * cosine);
+}
+
+OutputPattern makeOutputPattern(int outputsPerPixel) {
+    if (outputsPerPixel < 1 || outputsPerPixel > 4096 || !std::has_single_bit(unsigned(outputsPerPixel)))
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("outputs a pixel must be a power of two from 1 to 4096, not {}", outputsPerPixel));
+    const auto lensX = sobolDirections(0, 0, {}), lensY = sobolDirections(1, 0, {1});
+    const auto pixelX = sobolDirections(2, 1, {1, 3}), pixelY = sobolDirections(3, 1, {1, 3, 1});
+    const auto time = sobolDirections(3, 2, {1, 1, 1});
+
+    const int bits = std::countr_zero(unsigned(outputsPerPixel));
+    const int columnBits = (bits + 1) / 2, rowBits = bits / 2;
+    OutputPattern pattern;
+    pattern.lensCells = {1 << columnBits, 1 << rowBits};
+    for (uint i = 0; i < uint(outputsPerPixel); ++i) {
+        const uint column = columnBits ? sobol(lensX, i) >> (32 - columnBits) : 0;
+        const uint row = rowBits ? sobol(lensY, i) >> (32 - rowBits) : 0;
+        pattern.entries.emplace_back(reverseBits(sobol(pixelX, i)), reverseBits(sobol(pixelY, i)),
+                                     reverseBits(sobol(time, i)), column | row << 16);
+    }
+    std::sort(pattern.entries.begin(), pattern.entries.end(), [](const auto& left, const auto& right) {
+        return morton(left.w & 0xffffu, left.w >> 16) < morton(right.w & 0xffffu, right.w >> 16);
+    });
+    for (std::size_t first = 0; first < pattern.entries.size(); first += kOutputsPerGroup)
+        pattern.groups.push_back(
+            groupBox(pattern, first, std::min(first + kOutputsPerGroup, pattern.entries.size())));
+    return pattern;
+}
+
+Output outputAt(ivec2 pixel, int output, const glm::uvec4& entry, ivec2 lensCells, uint seed) {
+    const uint pixelSeed = hash(uint(pixel.x) + hash(uint(pixel.y) + hash(seed)));
+    const uint qx = owenScramble(entry.x, hash(pixelSeed ^ 0xa511e9b3u)) >> 20;
+    const uint qy = owenScramble(entry.y, hash(pixelSeed ^ 0x63d83595u)) >> 20;
+    const uint qt = owenScramble(entry.z, hash(pixelSeed ^ 0x9e3779b9u)) >> 8;
+    const uint jitter = hash(pixelSeed + uint(output) * 0x9e3779b9u);
+    const vec2 cell = vec2(float(entry.w & 0xffffu), float(entry.w >> 16)) +
+                      (vec2(float(jitter & 0xffffu), float(jitter >> 16)) + 0.5f) * (1.f / 65536.f);
+    Output o;
+    o.xy = vec2(pixel) + (vec2(float(qx), float(qy)) + 0.5f) * (1.f / float(kSubpixels));
+    o.uv = concentricDisc(cell * (2.f / vec2(lensCells)) - 1.f);
+    o.t = float(qt) * (1.f / 16777216.f);
+    o.positionCode = float(qx * uint(kSubpixels) + qy);
+    return o;
+}
+
+} // namespace slant

@@ -1,0 +1,46 @@
+// Where the outputs of a pixel lie: a pattern that is stratified in pixel, lens and time together.
+//
+// The lens is cut into M cells, one an output, so that output m of every pixel lies in the same small part of
+// the lens and a tile of pixels can share its search; within the cell it is jittered from pixel to pixel.
+// The pixel position and the time come from a Sobol' sequence whose first two dimensions gave the lens cell,
+// Owen-scrambled for each pixel. All of it is integer arithmetic and exact in GLSL too.
+#pragma once
+#include "shared/reconstruct.h"
+
+#include <vector>
+
+namespace slant {
+
+/// Lens positions that the outputs of one group can have.
+struct LensBox {
+    vec2 min, max;
+};
+
+struct OutputPattern {
+    /// One an output: Sobol' bits, bit-reversed, of x, y and time; lens cell (column | row << 16).
+    std::vector<glm::uvec4> entries;
+    ivec2 lensCells{1, 1};       ///< columns, rows of the lens grid; powers of two
+    std::vector<LensBox> groups; ///< one for every kOutputsPerGroup entries (or for the rest)
+
+    int outputsPerPixel() const { return int(entries.size()); }
+};
+
+/// Throws Error(usage) unless outputsPerPixel is a power of two from 1 to 4096.
+OutputPattern makeOutputPattern(int outputsPerPixel);
+
+/// One output: where it lies in pixel, lens and time.
+struct Output {
+    vec2 xy; ///< raster position
+    vec2 uv; ///< in the unit disc
+    float t;
+    float positionCode; ///< place in its pixel: qx * kSubpixels + qy, exact in a float
+};
+
+/// The same arithmetic as lib/output_pattern.glsl.
+Output outputAt(ivec2 pixel, int output, const glm::uvec4& entry, ivec2 lensCells, uint seed);
+
+/// Shirley and Chiu's concentric map from [-1, 1]^2 to the unit disc, with sine and cosine as polynomials so
+/// that compute gives the same bits.
+vec2 concentricDisc(vec2 square);
+
+} // namespace slant

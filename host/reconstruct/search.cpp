@@ -1,0 +1,138 @@
+#include "reconstruct/search.h"
+
+#include <limits>
+
+namespace slant {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// A sample seen from the output's lens position.
+struct Candidate {
+    vec2 offset; ///< from the output, pixels
+    float distance2;
+    float slope;
+    uint record;
+};
+
+/// Calls visit for the samples that reproject to within `radius` of the output, until it returns false. They
+/// come in the order of their bricks: front to back, up to the width of a bucket. Returns loop steps.
+template <typename Visit>
+int forEachCandidate(const SearchContext& context, const Output& output, float radius, Visit&& visit) {
+    const GridLayout& grid = context.bins.grid;
+    const int side = grid.cellsPerBrick;
+    int iterations = 0;
+    for (const uint id : context.bricks) {
+        const Brick& brick = context.bins.bricks[id];
+        const vec2 a = brick.slopeMin * output.uv, b = brick.slopeMax * output.uv;
+        const vec2 low = (output.xy - glm::max(a, b) - radius - grid.origin) * grid.invCell;
+        const vec2 high = (output.xy - glm::min(a, b) + radius - grid.origin) * grid.invCell;
+        const ivec2 corner(brick.firstCellX, brick.firstCellY);
+        const ivec2 first = glm::max(ivec2(glm::floor(low)) - corner, ivec2(0));
+        const ivec2 last = glm::min(ivec2(glm::floor(high)) - corner, ivec2(side - 1));
+        ++iterations;
+        if (first.x > last.x) continue;
+        for (int row = first.y; row <= last.y; ++row) {
+            const std::size_t cell = (std::size_t(id) * side + row) * side;
+            const uint begin = context.bins.cellStart[cell + first.x];
+            const uint end = context.bins.cellStart[cell + last.x + 1];
+            iterations += int(end - begin) + 1;
+            for (uint record = begin; record < end; ++record) {
+                const vec4& position = context.bins.positions[record];
+                const vec2 offset = vec2(position.x, position.y) + position.z * output.uv - output.xy;
+                const float distance2 = offset.x * offset.x + offset.y * offset.y;
+                if (distance2 < radius * radius && !visit(Candidate{offset, distance2, position.z, record}))
+                    return iterations;
+            }
+        }
+    }
+    return iterations;
+}
+
+vec3 radianceOf(const SearchContext& context, const Candidate& candidate) {
+    return vec3(context.bins.radiances[candidate.record]);
+}
+
+} // namespace
+
+Reconstructed reconstructNearest(const SearchContext& context, const Output& output) {
+    const GridLayout& grid = context.bins.grid;
+    const float invRadius = 1 / grid.radiusPx;
+    vec3 sum(0);
+    float weightSum = 0, slopeMax = -kInfinity;
+    uint quadrants = 0;
+    bool another = false; ///< there is a surface behind
+    Reconstructed result;
+    result.iterations = forEachCandidate(context, output, grid.radiusPx, [&](const Candidate& candidate) {
+        another = weightSum > 0 && candidate.slope > slopeMax + grid.surfaceGap;
+        if (another) return false;
+        const float weight = 1 - glm::sqrt(candidate.distance2) * invRadius;
+        sum += weight * radianceOf(context, candidate);
+        weightSum += weight;
+        slopeMax = glm::max(slopeMax, candidate.slope);
+        quadrants |= 1u << ((candidate.offset.x < 0 ? 1 : 0) + (candidate.offset.y < 0 ? 2 : 0));
+        return true;
+    });
+    const bool taken = weightSum > 0 && (!another || quadrants == 15u);
+    result.outcome = taken ? Outcome::resolved : Outcome::needsVisibility;
+    if (taken) result.rgb = sum / weightSum;
+    return result;
+}
+
+namespace {
+
+/// What is known of an apparent surface around an output.
+struct Surface {
+    int count = 0; ///< samples within twice the base radius
+    float slopeMax = -kInfinity;
+    vec3 innerSum{0}, outerSum{0}; ///< tents over the base radius and over twice that
+    float innerWeight = 0, outerWeight = 0;
+    vec2 upper{kInfinity, -kInfinity}; ///< least and greatest x/y of samples with y >= 0
+    vec2 lower{kInfinity, -kInfinity}; ///< ... with y < 0
+};
+
+void addSample(Surface& surface, const Candidate& candidate, const vec3& rgb, float baseRadius) {
+    const float distance = glm::sqrt(candidate.distance2) / baseRadius;
+    const float inner = glm::max(1 - distance, 0.f), outer = 2 - distance;
+    surface.count += 1;
+    surface.slopeMax = glm::max(surface.slopeMax, candidate.slope);
+    surface.innerSum += inner * rgb;
+    surface.innerWeight += inner;
+    surface.outerSum += outer * rgb;
+    surface.outerWeight += outer;
+    const float ratio = candidate.offset.x / candidate.offset.y;
+    if (candidate.offset.y >= 0)
+        surface.upper = vec2(glm::min(surface.upper.x, ratio), glm::max(surface.upper.y, ratio));
+    else
+        surface.lower = vec2(glm::min(surface.lower.x, ratio), glm::max(surface.lower.y, ratio));
+}
+
+/// The output lies inside the hull of the surface's samples, at least one of them within the base radius.
+bool covers(const Surface& s) {
+    return s.innerWeight > 0 && s.upper.y > s.lower.x && s.upper.x < s.lower.y;
+}
+
+} // namespace
+
+Reconstructed resolveVisibility(const SearchContext& context, const Output& output, float baseRadius) {
+    const GridLayout& grid = context.bins.grid;
+    Surface surface;
+    Reconstructed result;
+    result.iterations = forEachCandidate(context, output, 2 * baseRadius, [&](const Candidate& candidate) {
+        const bool another =
+            surface.count >= kMinSurfaceSamples && candidate.slope > surface.slopeMax + grid.surfaceGap;
+        if (another) {
+            if (covers(surface)) return false;
+            surface = Surface{};
+        }
+        addSample(surface, candidate, radianceOf(context, candidate), baseRadius);
+        return true;
+    });
+    if (surface.count == 0) return result;
+    result.outcome = Outcome::resolved;
+    result.rgb = surface.innerWeight > 0 ? surface.innerSum / surface.innerWeight
+                                         : surface.outerSum / surface.outerWeight;
+    return result;
+}
+
+} // namespace slant

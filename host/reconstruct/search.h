@@ -1,0 +1,36 @@
+// One output against the bins: the inner loop of the reconstruction, as clear as it can be. The compute
+// path's lib/search.glsl and lib/surfaces.glsl have the same names and the same order of operations.
+#pragma once
+#include "reconstruct/tile_lists.h"
+
+namespace slant {
+
+enum class Outcome {
+    resolved,        ///< rgb is set
+    needsVisibility, ///< more than one apparent surface, or nothing, within R
+    hole,            ///< nothing within twice the base radius
+};
+
+struct Reconstructed {
+    Outcome outcome = Outcome::hole;
+    vec3 rgb{0};
+    int iterations = 0; ///< loop steps taken; beyond kMaxLoopIterations compute leaves the output to the CPU
+};
+
+/// Bricks to look at for one output.
+struct SearchContext {
+    const Bins& bins;
+    std::span<const uint> bricks;
+};
+
+/// The front-most apparent surface within R, tent-filtered, where it is the only one or has samples in all
+/// four quadrants around the output. Anything else needs resolveVisibility.
+Reconstructed reconstructNearest(const SearchContext& context, const Output& output);
+
+/// Splits the samples within twice `baseRadius` into apparent surfaces and takes the first, front to back,
+/// that covers the output (its samples surround it); the last is always taken. Lehtinen et al. 2011, section
+/// 4, but that surfaces are split at gaps in slope instead of at pairwise crossings: bricks come front to
+/// back, so one sweep finds them without storing candidates, and there is no limit on their number.
+Reconstructed resolveVisibility(const SearchContext& context, const Output& output, float baseRadius);
+
+} // namespace slant

@@ -1,0 +1,96 @@
+// Light fields whose answer is known: layers of constant slope, front to back, each an inside test and a
+// colour over pinhole position, sampled by a jittered pattern.
+#pragma once
+#include "lightfield/lightfield.h"
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace slant::synthetic {
+
+/// PCG hash of O'Neill's 32-bit generator family, as a stream.
+class Random {
+public:
+    explicit Random(std::uint32_t seed) : state_(seed * 747796405u + 2891336453u) {}
+    std::uint32_t bits() {
+        state_ = state_ * 747796405u + 2891336453u;
+        const std::uint32_t word = ((state_ >> ((state_ >> 28) + 4)) ^ state_) * 277803737u;
+        return (word >> 22) ^ word;
+    }
+    float uniform() { return float(bits() >> 8) * 0x1p-24f; }
+
+private:
+    std::uint32_t state_;
+};
+
+struct Layer {
+    float slope;
+    std::function<bool(glm::vec2)> inside;
+    std::function<glm::vec3(glm::vec2)> colour;
+};
+
+/// The nearest layer (they are ordered front to back) that is hit, as a sample.
+inline LightFieldSample look(const std::vector<Layer>& layers, glm::vec2 xy, glm::vec2 uv, float t) {
+    LightFieldSample s{xy.x, xy.y, uv.x, uv.y, t, INFINITY, 0, 0, 0, 0, 0, 0};
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        const glm::vec2 p = xy - layers[i].slope * uv;
+        if (!layers[i].inside(p)) continue;
+        const glm::vec3 colour = layers[i].colour(p);
+        s.w = float(i + 1);
+        s.slope = layers[i].slope;
+        s.alpha = 1;
+        s.r = colour.r, s.g = colour.g, s.b = colour.b;
+        break;
+    }
+    return s;
+}
+
+/// spp samples in every pixel of `bounds`: a sqrt(spp)-ish grid in the pixel, jittered, and a shuffled one on
+/// the lens.
+inline LightField sample(const std::vector<Layer>& layers, Rect frame, int overscan, int spp, std::uint32_t seed) {
+    LightField field;
+    field.frame = frame;
+    field.bounds = frame.expand(overscan);
+    field.samplesPerPixel = spp;
+    const int columns = std::max(1, int(std::lround(std::sqrt(double(spp)))));
+    for (int y = field.bounds.y0; y < field.bounds.y1; ++y)
+        for (int x = field.bounds.x0; x < field.bounds.x1; ++x) {
+            Random random(seed + std::uint32_t(y * 7919 + x * 104729));
+            const std::uint32_t shift = random.bits();
+            for (int i = 0; i < spp; ++i) {
+                const int rows = (spp + columns - 1) / columns;
+                const auto stratum = [&](int k, int count) { return (float(k) + random.uniform()) / float(count); };
+                const float fx = stratum(i % columns, columns), fy = stratum(i / columns, rows);
+                const int j = int((std::uint32_t(i) + shift) % std::uint32_t(spp));
+                const float r = std::sqrt(stratum(j, spp));
+                const float phi = 6.2831853f * std::fmod(float(j) * 0.618034f + random.uniform() / float(spp), 1.f);
+                field.samples.push_back(look(layers, {float(x) + fx, float(y) + fy},
+                                             {r * std::cos(phi), r * std::sin(phi)}, random.uniform()));
+            }
+        }
+    return field;
+}
+
+/// Discs in focus behind blurred discs, before a blurred checkerboard.
+inline std::vector<Layer> discsOverChecks() {
+    const auto disc = [](glm::vec2 p, float pitch, float radius) {
+        const glm::vec2 q = p - pitch * glm::floor(p / pitch) - pitch / 2;
+        return glm::dot(q, q) < radius * radius;
+    };
+    return {
+        {-12, [=](glm::vec2 p) { return disc(p, 60, 13); }, [](glm::vec2 p) {
+             return glm::vec3(0.9f, 0.3f + 0.2f * std::sin(p.x * 0.5f), 0.1f);
+         }},
+        {0.3f, [=](glm::vec2 p) { return disc(p + 22.f, 37, 10); }, [](glm::vec2 p) {
+             return glm::vec3(0.2f, 0.5f, 0.5f + 0.4f * std::sin(p.x) * std::sin(p.y));
+         }},
+        {9, [](glm::vec2) { return true; }, [](glm::vec2 p) {
+             const bool odd = (int(std::floor(p.x / 9)) + int(std::floor(p.y / 9))) & 1;
+             return odd ? glm::vec3(0.8f) : glm::vec3(0.1f, 0.2f, 0.1f);
+         }},
+    };
+}
+
+} // namespace slant::synthetic
