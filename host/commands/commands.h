@@ -10,7 +10,9 @@ namespace slant::commands {
 
 using AddCommand = void (*)(CLI::App& program);
 
+void addDiff(CLI::App& program);
+
 /// In the order in which `slant --help` lists them.
-inline constexpr std::initializer_list<AddCommand> kCommands = {};
+inline constexpr std::initializer_list<AddCommand> kCommands = {addDiff};
 
 } // namespace slant::commands

@@ -1,0 +1,170 @@
+// slant diff: metrics of an image against its reference, and an exit status for scripts.
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "commands/commands.h"
+#include "commands/options.h"
+#include "image/exr.h"
+#include "image/heat_map.h"
+#include "image/metrics.h"
+#include "image/png.h"
+#include "image/srgb.h"
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+namespace slant::commands {
+namespace {
+
+struct DiffOptions {
+    std::string image, reference, heatMap;
+    bool json = false;
+    std::optional<double> maxMse, maxRelMse, minPsnr, maxAbs, maxDrift, maxP99;
+};
+
+bool isPng(const std::string& path) {
+    const std::string extension = std::filesystem::path(path).extension().string();
+    return extension == ".png" || extension == ".PNG";
+}
+
+/// Linear values; those of a PNG are decoded from sRGB (but not alpha).
+Image readLinear(const std::string& path) {
+    if (!isPng(path)) return readExr(path).image;
+    Image image = readPng(path);
+    const auto channels = std::size_t(image.channelCount());
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+        if (image.channels[i % channels] != "A") image.pixels[i] = linearFromSrgb(image.pixels[i]);
+    return image;
+}
+
+/// What is out of bounds and by how much, each bound in its own words; empty if all is well.
+std::vector<std::string> violations(const Metrics& m, const DiffOptions& options) {
+    std::vector<std::string> list;
+    if (m.nonFinite > 0) list.push_back(fmt::format("{} values are NaN or infinite", m.nonFinite));
+    const auto above = [&](const char* name, double value, const std::optional<double>& bound) {
+        if (bound && !(value <= *bound))
+            list.push_back(
+                fmt::format("{} {:.4g} exceeds {:.4g} by {:.4g}", name, value, *bound, value - *bound));
+    };
+    above("MSE", m.mse, options.maxMse);
+    above("relMSE", m.relMse, options.maxRelMse);
+    above("maximum error", m.maxAbs, options.maxAbs);
+    above("mean drift (either way)", std::abs(m.drift), options.maxDrift);
+    above("99th percentile", m.p99, options.maxP99);
+    if (options.minPsnr && !(m.psnr >= *options.minPsnr))
+        list.push_back(fmt::format("PSNR {:.4g} dB falls short of {:.4g} dB by {:.4g} dB", m.psnr,
+                                   *options.minPsnr, *options.minPsnr - m.psnr));
+    return list;
+}
+
+/// The scale of the heat map: the 99th percentile, so that a few outliers do not make the rest black.
+double heatScale(const Metrics& m) {
+    for (const double scale : {m.p99, m.maxAbs})
+        if (scale > 0) return scale;
+    return 1; // equal images, or no figures because of non-finite values
+}
+
+std::string placeText(const ValuePlace& place, const Image& image, float value, float reference) {
+    return fmt::format("at ({}, {}) {}: {:.6g}, reference {:.6g}", place.x, place.y,
+                       image.channels[std::size_t(place.channel)], value, reference);
+}
+
+void printTable(const Image& image, const Metrics& m, const DiffOptions& options) {
+    fmt::print("{} against {}: {}x{}, {}\n", options.image, options.reference, image.width(), image.height(),
+               fmt::join(image.channels, " "));
+    if (m.nonFinite > 0) {
+        fmt::print("  non-finite       {}, first {}\n", m.nonFinite,
+                   placeText(m.nonFinitePlace, image, m.nonFiniteValue, m.nonFiniteReference));
+    } else {
+        fmt::print("  MSE              {:.6g}\n  relMSE           {:.6g}\n  PSNR             {:.2f} dB\n",
+                   m.mse, m.relMse, m.psnr);
+        fmt::print("  mean error       {:.6g}\n  99th percentile  {:.6g}\n", m.mae, m.p99);
+        fmt::print("  maximum error    {:.6g} {}\n", m.maxAbs,
+                   placeText(m.maxPlace, image, m.maxValue, m.maxReference));
+        fmt::print("  mean drift       {:+.3f} %", 100 * m.drift);
+        for (std::size_t c = 0; c < m.channelDrift.size(); ++c)
+            fmt::print("{} {} {:+.3f} %", c ? "," : ":", image.channels[c], 100 * m.channelDrift[c]);
+        fmt::print("\n");
+    }
+    if (!options.heatMap.empty())
+        fmt::print("  heat map         {}: 0 to {:.6g}\n", options.heatMap, heatScale(m));
+}
+
+nlohmann::ordered_json placeJson(const ValuePlace& place, const Image& image, float value, float reference) {
+    return {{"x", place.x},
+            {"y", place.y},
+            {"channel", image.channels[std::size_t(place.channel)]},
+            {"value", value},
+            {"reference", reference}};
+}
+
+/// JSON has no NaN and no infinity: these become null.
+void printJson(const Image& image, const Metrics& m, const DiffOptions& options,
+               const std::vector<std::string>& outOfBounds) {
+    nlohmann::ordered_json json = {{"image", options.image},
+                                   {"reference", options.reference},
+                                   {"width", image.width()},
+                                   {"height", image.height()},
+                                   {"mse", m.mse},
+                                   {"relMse", m.relMse},
+                                   {"psnr", m.psnr},
+                                   {"mae", m.mae},
+                                   {"p99", m.p99},
+                                   {"maxAbs", m.maxAbs},
+                                   {"drift", m.drift},
+                                   {"channelDrift", nlohmann::ordered_json::object()},
+                                   {"nonFinite", m.nonFinite},
+                                   {"outOfBounds", outOfBounds}};
+    for (std::size_t c = 0; c < m.channelDrift.size(); ++c)
+        json["channelDrift"][image.channels[c]] = m.channelDrift[c];
+    if (m.nonFinite > 0)
+        json["firstNonFinite"] = placeJson(m.nonFinitePlace, image, m.nonFiniteValue, m.nonFiniteReference);
+    else
+        json["worst"] = placeJson(m.maxPlace, image, m.maxValue, m.maxReference);
+    if (!options.heatMap.empty()) json["heatMapScale"] = heatScale(m);
+    fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
+void runDiff(const DiffOptions& options) {
+    if (!options.heatMap.empty()) checkWritable(options.heatMap);
+    const Image image = readLinear(options.image), reference = readLinear(options.reference);
+    const Metrics metrics = [&] {
+        try {
+            return compare(image, reference);
+        } catch (const Error& error) {
+            throw Error(error.code(), {options.image + " against " + options.reference}, error.what());
+        }
+    }();
+    if (!options.heatMap.empty()) writePng(options.heatMap, heatMap(image, reference, heatScale(metrics)));
+    const std::vector<std::string> outOfBounds = violations(metrics, options);
+    if (options.json)
+        printJson(image, metrics, options, outOfBounds);
+    else
+        printTable(image, metrics, options);
+    if (!outOfBounds.empty())
+        throw Error(ErrorCode::outOfBounds, fmt::format("out of bounds: {}", fmt::join(outOfBounds, "; ")));
+}
+
+} // namespace
+
+void addDiff(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("diff", "Compare an image with its reference (EXR or PNG)");
+    const auto options = std::make_shared<DiffOptions>();
+    command->add_option("IMAGE", options->image, "image to judge")->required()->type_name("");
+    command->add_option("REFERENCE", options->reference, "what it should be")->required()->type_name("");
+    command->add_flag("--json", options->json, "print JSON instead of a table");
+    command->add_option("--heat-map", options->heatMap, "write a picture of the errors")
+        ->type_name("FILE.png");
+    constexpr double kHuge = 1e30;
+    addNumber<double>(*command, "--max-mse", options->maxMse, 0, kHuge, "mean squared error allowed");
+    addNumber<double>(*command, "--max-relmse", options->maxRelMse, 0, kHuge,
+                      "mean of err^2/(ref^2 + 0.01) allowed");
+    addNumber<double>(*command, "--min-psnr", options->minPsnr, -kHuge, kHuge, "dB asked for, peak 1");
+    addNumber<double>(*command, "--max-abs", options->maxAbs, 0, kHuge, "largest error of a value allowed");
+    addNumber<double>(*command, "--max-drift", options->maxDrift, 0, kHuge,
+                      "relative change of mean brightness allowed (0.005 = 0.5 %)");
+    addNumber<double>(*command, "--max-p99", options->maxP99, 0, kHuge, "99th percentile of errors allowed");
+    command->callback([options] { runDiff(*options); });
+}
+
+} // namespace slant::commands
