@@ -12,12 +12,12 @@ layout(push_constant) uniform Push { RadixPush push; };
 void main() {
     const uint chunk =
         linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
-    const uint chunks = push.chunks, shift = push.shift;
+    const uint chunks = push.chunks, shift = push.shift, mask = push.mask;
     if (chunk >= chunks) return;
     const uint first = chunk * kRadixChunk;
     const uint end = min(first + kRadixChunk, push.count);
     DigitCounts counts = noDigits();
-    for (uint i = first; i < end; ++i) addDigit(counts, texelFetch(keys, int(i)).x >> shift & kRadixDigits - 1u);
+    for (uint i = first; i < end; ++i) addDigit(counts, texelFetch(keys, int(i)).x >> shift & mask);
     for (uint digit = 0u; digit < kRadixDigits; ++digit)
         imageStore(histogram, int(digit * chunks + chunk), uvec4(countOf(counts, digit)));
 }

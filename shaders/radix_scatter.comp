@@ -16,14 +16,14 @@ layout(push_constant) uniform Push { RadixPush push; };
 void main() {
     const uint chunk =
         linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
-    const uint chunks = push.chunks, shift = push.shift;
+    const uint chunks = push.chunks, shift = push.shift, mask = push.mask;
     if (chunk >= chunks) return;
     const uint first = chunk * kRadixChunk;
     const uint end = min(first + kRadixChunk, push.count);
     DigitCounts counts = noDigits();
     for (uint i = first; i < end; ++i) {
         const uint key = texelFetch(keysBefore, int(i)).x;
-        const uint digit = key >> shift & kRadixDigits - 1u;
+        const uint digit = key >> shift & mask;
         const uint place = texelFetch(offsets, int(digit * chunks + chunk)).x + countOf(counts, digit);
         addDigit(counts, digit);
         imageStore(keysAfter, int(place), uvec4(key));

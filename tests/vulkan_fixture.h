@@ -1,6 +1,7 @@
 // A validated Vulkan device for tests. None on this machine is a failure, unless
 // SLANT_TESTS_WITHOUT_VULKAN=1.
 #pragma once
+#include "base/error.h"
 #include "compute/device.h"
 
 #include <cstdlib>

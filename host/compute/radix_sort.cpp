@@ -9,6 +9,8 @@
 namespace slant {
 namespace {
 
+static_assert(kRadixChunk < 256, "the shaders count in bytes");
+
 std::uint64_t chunksOf(std::uint64_t count) {
     return (count + kRadixChunk - 1) / kRadixChunk;
 }
@@ -31,7 +33,8 @@ const PairBuffers& RadixSort::record(CommandList& commands, const PairBuffers& p
     const PairBuffers* from = &pairs;
     const PairBuffers* to = &scratch;
     for (int shift = 0; shift < keyBits; shift += int(kRadixBits)) {
-        const RadixPush push{uint(count), uint(chunks), uint(shift)};
+        const int digitBits = std::min(int(kRadixBits), keyBits - shift);
+        const RadixPush push{uint(count), uint(chunks), uint(shift), (1u << digitBits) - 1};
         commands.dispatch(count_, {from->keys, histogram_}, push, count_.gridFor(chunks));
         scan_.record(commands, histogram_, chunks * kRadixDigits);
         commands.dispatch(scatter_, {from->keys, from->values, histogram_, to->keys, to->values}, push,

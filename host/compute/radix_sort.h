@@ -7,8 +7,6 @@
 #pragma once
 #include "compute/scan.h"
 
-#include <bit>
-
 namespace slant {
 
 /// Two r32ui buffers of equal size.
@@ -35,10 +33,5 @@ private:
     Buffer histogram_;
     Scan scan_;
 };
-
-/// Bits that keys below `keyCount` need.
-constexpr int keyBitsFor(std::uint32_t keyCount) {
-    return keyCount < 2 ? 0 : std::bit_width(keyCount - 1);
-}
 
 } // namespace slant
