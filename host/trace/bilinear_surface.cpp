@@ -1,0 +1,124 @@
+#include "trace/mesh_surface.h"
+
+#include "trace/tangent_frame.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace slant {
+namespace {
+
+/// Patches reach this much farther than their edges, so that no ray slips between neighbours through rounding.
+constexpr double kSeam = 1e-9;
+
+/// Real roots of a u^2 + b u + c = 0, without cancellation; false if there are none.
+bool solveQuadratic(double a, double b, double c, double roots[2]) {
+    if (a == 0) {
+        if (b == 0) return false;
+        roots[0] = roots[1] = -c / b;
+        return true;
+    }
+    double discriminant = b * b - 4 * a * c;
+    if (!(discriminant >= 0)) return false;
+    double q = -0.5 * (b + std::copysign(std::sqrt(discriminant), b));
+    roots[0] = q / a;
+    roots[1] = q == 0 ? roots[0] : c / q;
+    return true;
+}
+
+/// `vector` after the shortest rotation of one unit vector onto another.
+glm::dvec3 turned(glm::dvec3 vector, glm::dvec3 from, glm::dvec3 to) {
+    glm::dvec3 axis = glm::cross(from, to);
+    double cosine = glm::dot(from, to);
+    if (cosine < -0.999999) return -vector; // about opposite: half a turn around any axis
+    return vector + glm::cross(axis, vector) + glm::cross(axis, glm::cross(axis, vector)) / (1 + cosine);
+}
+
+} // namespace
+
+// Reshetov, "Cool Patches: A Geometric Approach to Ray/Bilinear Patch Intersections", 2019: the straight
+// lines of constant u that the ray's line meets are the roots of a quadratic.
+std::optional<SurfaceLocation> BilinearSurface::intersect(std::uint32_t primitive, const SurfaceRay& ray,
+                                                          double tMax) const {
+    const std::uint32_t* v = corner(primitive);
+    glm::dvec3 p00 = glm::dvec3(positions_[v[0]]) - ray.origin,
+               p10 = glm::dvec3(positions_[v[1]]) - ray.origin;
+    glm::dvec3 p01 = glm::dvec3(positions_[v[2]]) - ray.origin,
+               p11 = glm::dvec3(positions_[v[3]]) - ray.origin;
+    glm::dvec3 d = ray.direction;
+    double a = glm::dot(glm::cross(p10 - p00, p01 - p11), d);
+    double c = glm::dot(glm::cross(p00, d), p01 - p00);
+    double b = glm::dot(glm::cross(p10, d), p11 - p10) - (a + c);
+    double roots[2];
+    if (!solveQuadratic(a, b, c, roots)) return std::nullopt;
+
+    std::optional<SurfaceLocation> nearest;
+    for (double root : roots) {
+        if (!(root >= -kSeam && root <= 1 + kSeam)) continue;
+        const double u = std::clamp(root, 0.0, 1.0);
+        glm::dvec3 start = p00 + u * (p10 - p00), along = p01 + u * (p11 - p01) - start;
+        // Where the line of constant u and the ray come nearest to each other.
+        glm::dvec3 across = glm::cross(d, along);
+        double squared = glm::dot(across, across);
+        double vScaled = glm::dot(glm::cross(start, d), across);
+        double t = glm::dot(glm::cross(start, along), across) / squared;
+        double vHere = vScaled / squared;
+        if (!(vHere >= -kSeam && vHere <= 1 + kSeam && t > 0 && t < tMax)) continue;
+        if (!nearest || t < nearest->t) nearest = SurfaceLocation{t, {u, std::clamp(vHere, 0.0, 1.0), 0}};
+    }
+    return nearest;
+}
+
+void BilinearSurface::describe(std::uint32_t primitive, const SurfaceLocation& at, SurfaceHit& hit) const {
+    const std::uint32_t* corners = corner(primitive);
+    auto interpolate = [&](auto c00, auto c10, auto c01, auto c11) {
+        double u = at.local.x, v = at.local.y;
+        return (1 - u) * ((1 - v) * c00 + v * c01) + u * ((1 - v) * c10 + v * c11);
+    };
+    auto alongU = [&](auto c00, auto c10, auto c01, auto c11) {
+        return (1 - at.local.y) * (c10 - c00) + at.local.y * (c11 - c01);
+    };
+    auto alongV = [&](auto c00, auto c10, auto c01, auto c11) {
+        return (1 - at.local.x) * (c01 - c00) + at.local.x * (c11 - c10);
+    };
+    auto apply = [&](const auto& function, const auto& values, auto type) {
+        using Vector = decltype(type);
+        return function(Vector(values[corners[0]]), Vector(values[corners[1]]), Vector(values[corners[2]]),
+                        Vector(values[corners[3]]));
+    };
+    hit.position = apply(interpolate, positions_, glm::dvec3());
+    hit.positionError = gammaBound(2) * glm::abs(hit.position);
+    glm::dvec3 dpdu = apply(alongU, positions_, glm::dvec3()), dpdv = apply(alongV, positions_, glm::dvec3());
+    glm::dvec3 normal = glm::cross(dpdu, dpdv);
+    double length = glm::length(normal);
+    normal = length > 0 ? normal / length : anyTangent({0, 0, 1});
+    if (flip_) normal = -normal;
+
+    hit.uv = glm::vec2(at.local);
+    if (!mesh_.uvs.empty()) {
+        hit.uv = apply(interpolate, mesh_.uvs, glm::dvec2());
+        // pbrt's derivative with respect to the mesh's first texture coordinate: a reciprocal of each
+        // partial.
+        double dsdu = apply(alongU, mesh_.uvs, glm::dvec2()).x,
+               dsdv = apply(alongV, mesh_.uvs, glm::dvec2()).x;
+        glm::dvec3 dpds(0);
+        if (std::abs(dsdu) >= 1e-8) dpds += dpdu / dsdu;
+        if (std::abs(dsdv) >= 1e-8) dpds += dpdv / dsdv;
+        if (glm::dot(dpds, dpds) > 0) dpdu = dpds;
+    }
+    if (!(glm::dot(dpdu, dpdu) > 0)) dpdu = anyTangent(normal);
+
+    glm::dvec3 shading = normal;
+    if (!normals_.empty()) {
+        glm::dvec3 sum = apply(interpolate, normals_, glm::dvec3());
+        double size = glm::length(sum);
+        if (size > 0) shading = sum / size;
+        dpdu = turned(dpdu, normal, shading);
+        if (glm::dot(normal, shading) < 0) normal = -normal;
+    }
+    hit.geometricNormal = normal;
+    hit.shadingNormal = shading;
+    hit.dpdu = dpdu;
+}
+
+} // namespace slant

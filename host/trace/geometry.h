@@ -1,0 +1,43 @@
+// The surfaces of a scene and the rays that meet them: Embree finds the primitive, our own arithmetic
+// (surface.h) the point on it. Only geometry.cpp and embree.h include Embree.
+#pragma once
+#include "base/monitor.h"
+#include "scene/scene.h"
+#include "trace/interaction.h"
+#include "trace/surface.h"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+namespace slant {
+
+class Geometry {
+public:
+    /// The scene must outlive the geometry. Throws Error(badInput) for shapes that cannot be used, with their
+    /// location, and Error(resources) when memory runs out.
+    Geometry(const Scene& scene, Monitor& monitor);
+    ~Geometry();
+    Geometry(const Geometry&) = delete;
+    Geometry& operator=(const Geometry&) = delete;
+
+    /// The nearest surface with 0 < t < ray.tMax; false (and `hit` as constructed) if there is none.
+    bool intersect(const Ray& ray, SurfaceHit& hit) const;
+    /// Whether any surface lies at 0 < t < ray.tMax.
+    bool occluded(const Ray& ray) const;
+
+    /// The same for many rays that lie near each other, in order; faster. Rays with tMax <= 0 are left out:
+    /// no hit.
+    void intersect(std::span<const Ray> rays, std::span<SurfaceHit> hits) const;
+    /// occluded[i] = 1 or 0.
+    void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const;
+
+    /// World bounds of everything; empty for an empty scene.
+    Box bounds() const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace slant

@@ -1,0 +1,145 @@
+#include "trace/sample_pass.h"
+
+#include "base/error.h"
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <mutex>
+#include <new>
+#include <stdexcept>
+
+namespace slant {
+namespace {
+
+constexpr double kMebibyte = 1 << 20;
+
+std::uint64_t fieldBytes(Rect bounds, const SampleOptions& options) {
+    std::uint64_t perSample = sizeof(LightFieldSample) + (options.auxiliary ? sizeof(AuxiliarySample) : 0);
+    return std::uint64_t(bounds.area()) * std::uint64_t(options.samplesPerPixel) * perSample;
+}
+
+/// Throws Error(resources) if `bytes` are more than the budget.
+void requireBudget(std::uint64_t bytes, Rect bounds, const SampleOptions& options) {
+    if (bytes > options.memoryBytes)
+        throw Error(
+            ErrorCode::resources,
+            fmt::format(
+                "{} x {} pixels with {} samples each need {:.0f} MiB of memory, the budget is {:.0f} MiB",
+                bounds.width(), bounds.height(), options.samplesPerPixel, double(bytes) / kMebibyte,
+                double(options.memoryBytes) / kMebibyte));
+}
+
+/// Samples of one rectangle.
+struct Samples {
+    std::vector<LightFieldSample> light;
+    std::vector<AuxiliarySample> auxiliary;
+
+    Samples(Rect pixels, const SampleOptions& options) {
+        std::size_t count = pixels.area() * std::size_t(options.samplesPerPixel);
+        try {
+            light.resize(count);
+            auxiliary.resize(options.auxiliary ? count : 0);
+        } catch (const std::exception&) { // bad_alloc or length_error
+            throw Error(ErrorCode::resources, fmt::format("no memory for {} samples ({:.0f} MiB)", count,
+                                                          double(fieldBytes(pixels, options)) / kMebibyte));
+        }
+    }
+};
+
+void copyRows(const Samples& from, Rect pixels, Samples& to, Rect bounds, int samplesPerPixel) {
+    std::size_t row = std::size_t(pixels.width()) * std::size_t(samplesPerPixel);
+    for (int y = pixels.y0; y < pixels.y1; ++y) {
+        std::size_t source = std::size_t(y - pixels.y0) * row;
+        std::size_t target =
+            (std::size_t(y - bounds.y0) * std::size_t(bounds.width()) + std::size_t(pixels.x0 - bounds.x0)) *
+            std::size_t(samplesPerPixel);
+        std::copy_n(from.light.data() + source, row, to.light.data() + target);
+        if (!to.auxiliary.empty())
+            std::copy_n(from.auxiliary.data() + source, row, to.auxiliary.data() + target);
+    }
+}
+
+/// How far trajectories reach beyond a frame, in pixels; may be negative.
+struct Reach {
+    float left = 0, top = 0, right = 0, bottom = 0;
+
+    void add(const LightFieldSample& s, Rect frame) {
+        float radius = std::abs(s.slope);
+        if (!std::isfinite(radius)) return;
+        float x = s.x - s.slope * s.u, y = s.y - s.slope * s.v;
+        left = std::max(left, float(frame.x0) - (x - radius));
+        right = std::max(right, x + radius - float(frame.x1));
+        top = std::max(top, float(frame.y0) - (y - radius));
+        bottom = std::max(bottom, y + radius - float(frame.y1));
+    }
+    void add(const Reach& o) {
+        left = std::max(left, o.left);
+        right = std::max(right, o.right);
+        top = std::max(top, o.top);
+        bottom = std::max(bottom, o.bottom);
+    }
+};
+
+} // namespace
+
+Rect boundsWithOverscan(Rect frame, std::span<const LightFieldSample> samples, int samplesPerPixel,
+                        int limitPx, int& wantedPx) {
+    Reach reach;
+    std::mutex mutex;
+    parallelFor(0, samples.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
+        Reach local;
+        for (std::size_t i = first; i < last; ++i) local.add(samples[i], frame);
+        const std::lock_guard lock(mutex);
+        reach.add(local);
+    });
+    int margin = int(std::ceil(2 / std::sqrt(double(samplesPerPixel)))) + 1;
+    wantedPx = 0;
+    auto side = [&](float pixels) {
+        int wanted = int(std::min(std::ceil(pixels), 1e9f)) + margin;
+        wantedPx = std::max(wantedPx, wanted);
+        return std::min(wanted, limitPx);
+    };
+    return {frame.x0 - side(reach.left), frame.y0 - side(reach.top), frame.x1 + side(reach.right),
+            frame.y1 + side(reach.bottom)};
+}
+
+LightField traceLightField(const Tracer& tracer, const Scene& scene, const SampleOptions& options,
+                           Monitor& monitor) {
+    const int spp = options.samplesPerPixel;
+    const Rect frame = scene.film.crop;
+    auto trace = [&](Rect pixels, Samples& into) {
+        tracer.trace(pixels, 0, spp, spp, options.seed, into.light, into.auxiliary, monitor);
+    };
+    requireBudget(fieldBytes(frame, options), frame, options);
+    Samples inFrame(frame, options);
+    monitor.beginStage("trace", std::uint64_t(frame.area()) * std::uint64_t(spp), "samples");
+    trace(frame, inFrame);
+    monitor.endStage();
+
+    int limit = std::max(scene.film.xResolution, scene.film.yResolution) / 2, wanted = 0;
+    const Rect bounds = boundsWithOverscan(frame, inFrame.light, spp, limit, wanted);
+    if (wanted > limit)
+        monitor.warn(
+            fmt::format("blur reaches {} pixels beyond the frame; the overscan is limited to {} pixels, so "
+                        "borders may lack what enters from farther out",
+                        wanted, limit));
+    requireBudget(fieldBytes(bounds, options) + fieldBytes(frame, options), bounds, options);
+    Samples all(bounds, options);
+    copyRows(inFrame, frame, all, bounds, spp);
+    monitor.beginStage("trace overscan", std::uint64_t(bounds.area() - frame.area()) * std::uint64_t(spp),
+                       "samples");
+    const std::array<Rect, 4> ring{
+        Rect{bounds.x0, bounds.y0, bounds.x1, frame.y0}, Rect{bounds.x0, frame.y0, frame.x0, frame.y1},
+        Rect{frame.x1, frame.y0, bounds.x1, frame.y1}, Rect{bounds.x0, frame.y1, bounds.x1, bounds.y1}};
+    for (Rect part : ring) {
+        Samples samples(part, options);
+        trace(part, samples);
+        copyRows(samples, part, all, bounds, spp);
+    }
+    monitor.endStage();
+    return {bounds, frame, spp, tracer.camera().slopeModel(), std::move(all.light), std::move(all.auxiliary)};
+}
+
+} // namespace slant

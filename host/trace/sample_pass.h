@@ -1,0 +1,27 @@
+// The sample pass: the light field of a scene's frame and of as much overscan around it as its blur needs.
+#pragma once
+#include "trace/tracer.h"
+
+#include <cstdint>
+
+namespace slant {
+
+struct SampleOptions {
+    int samplesPerPixel = 8;
+    std::uint64_t seed = 0;
+    bool auxiliary = false;                 ///< record albedo and normal too
+    std::uint64_t memoryBytes = 4ull << 30; ///< budget of the light field
+};
+
+/// Traces Film::crop, then an overscan on each side as wide as any seen sample's trajectory reaches beyond
+/// it, plus the reconstruction radius; at most half of the film's longer side (then it warns). Throws
+/// Error(resources) when the samples do not fit the budget or memory, before tracing them.
+LightField traceLightField(const Tracer& tracer, const Scene& scene, const SampleOptions& options,
+                           Monitor& monitor);
+
+/// The bounds for a frame whose samples are given (any order); sides of the overscan are at most `limitPx`.
+/// Sets `wantedPx` to the widest side that would be needed.
+Rect boundsWithOverscan(Rect frame, std::span<const LightFieldSample> samples, int samplesPerPixel,
+                        int limitPx, int& wantedPx);
+
+} // namespace slant

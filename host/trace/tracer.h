@@ -1,0 +1,37 @@
+// Traces samples of the light field of a scene: camera, pattern, geometry and shading together.
+#pragma once
+#include "base/monitor.h"
+#include "base/rect.h"
+#include "camera/thin_lens.h"
+#include "lightfield/lightfield.h"
+#include "scene/scene.h"
+#include "trace/geometry.h"
+
+#include <span>
+
+namespace slant {
+
+/// Immutable once built; the scene must outlive it.
+class Tracer {
+public:
+    /// Throws Error(badInput) for a scene that cannot be traced, Error(resources) when memory runs out.
+    Tracer(const Scene& scene, Monitor& monitor);
+
+    /// Writes samples [firstSample, firstSample + count) of each pixel of `pixels`, a pattern of
+    /// samplesPerPixel, in the order of LightField: row, column, sample. Any pixel will do, on the film or
+    /// beside it. A sample depends on its pixel, its index, samplesPerPixel and the seed alone. Calls
+    /// monitor.advance with samples. `auxiliary` is empty or as long as `out`: pixels.area() * count. Throws
+    /// Error(usage) for sizes that do not fit, and what the monitor throws.
+    void trace(Rect pixels, int firstSample, int count, int samplesPerPixel, std::uint64_t seed,
+               std::span<LightFieldSample> out, std::span<AuxiliarySample> auxiliary, Monitor& monitor) const;
+
+    const ThinLens& camera() const { return camera_; }
+    const Geometry& geometry() const { return geometry_; }
+
+private:
+    const Scene& scene_;
+    ThinLens camera_;
+    Geometry geometry_;
+};
+
+} // namespace slant
