@@ -1,7 +1,7 @@
 // pbrt-v4's perspective camera: a thin lens in the plane z = 0 of a left-handed camera space that looks along
 // +z, and the slopes of trajectories seen through it.
 #pragma once
-#include "lightfield/lightfield.h"
+#include "camera/slope_model.h"
 #include "scene/scene.h"
 
 #include <glm/glm.hpp>
@@ -19,7 +19,8 @@ public:
     /// positive, pixels that are not square, a moving camera.
     ThinLens(const PerspectiveCamera& camera, const Film& film);
 
-    /// `raster` in pixels, y downwards; `lens` in the unit disc, v downwards (lightfield.h).
+    /// `raster` in pixels, y downwards; `lens` in the unit disc, v downwards (to the right and down, like the
+    /// raster).
     CameraRay ray(glm::vec2 raster, glm::vec2 lens) const {
         glm::vec2 tangent = tangentOfRasterOrigin_ + raster * tangentPerPixel_;
         glm::vec2 onLens = lens * lensRadius_;
@@ -28,7 +29,7 @@ public:
                     down_ * (tangent.y - onLens.y * inverseFocalDistance_)};
     }
 
-    /// c1 = -S A, c2 = S A / f with S = pixelsPerTangent (METHODS, section 1).
+    /// c1 = -S A, c2 = S A / f with S = pixelsPerTangent.
     SlopeModel slopeModel() const;
     /// Raster pixels per unit tangent from the viewing axis.
     double pixelsPerTangent() const { return pixelsPerTangent_; }

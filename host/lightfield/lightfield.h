@@ -1,6 +1,7 @@
 // The light field: the contract between whoever traces samples and whoever reconstructs an image from them.
 #pragma once
 #include "base/rect.h"
+#include "camera/slope_model.h"
 
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -30,12 +31,6 @@ static_assert(sizeof(LightFieldSample) == 48);
 struct AuxiliarySample {
     glm::vec3 albedo; ///< in [0, 1]
     glm::vec3 normal; ///< world space, unit length, towards the camera; 0 where nothing was hit
-};
-
-/// slope(w) = c1 / w + c2, in pixels per lens radius (METHODS: thin lens).
-struct SlopeModel {
-    float c1 = 0, c2 = 0;
-    float operator()(float w) const { return c1 / w + c2; }
 };
 
 /// Samples in the order row, column, sample of a pixel: pixel (i, j) of `bounds` holds samples
