@@ -1,0 +1,121 @@
+// Carries out the directives of scene text, one by one, on a Scene.
+#pragma once
+#include "scene/graphics_state.h"
+#include "scene/material_table.h"
+#include "scene/option_block.h"
+#include "scene/scene_files.h"
+#include "scene/texture_table.h"
+#include "scene/tokenizer.h"
+
+#include <deque>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace slant {
+
+class Monitor;
+
+/// Feed it the main text, then finish(). Throws Error(badInput) at the first thing that is wrong.
+class Interpreter {
+public:
+    /// `directory` is where relative file names start. Both references must outlive this.
+    Interpreter(const std::string& directory, Scene& scene, Monitor& monitor);
+
+    void run(const std::string& name, const std::string& text);
+    void finish();
+
+private:
+    using Handler = void (Interpreter::*)(Tokenizer&, const Position&);
+    struct Directive {
+        enum class Block { any, options, world } block;
+        Handler handler;
+    };
+    struct Saved {
+        GraphicsState state;
+        bool isObject;
+        Position where;
+    };
+    struct PendingInstance {
+        std::string name;
+        MovingTransform transform;
+        Position where;
+    };
+
+    static const std::map<std::string_view, Directive>& directives();
+
+    // interpreter.cpp: text, blocks, nesting
+    void runFile(Tokenizer& tokens, const Position& where);
+    void include(Tokenizer& tokens, const Position& where);
+    void import(Tokenizer& tokens, const Position& where);
+    void worldBegin(Tokenizer& tokens, const Position& where);
+    void attributeBegin(Tokenizer& tokens, const Position& where);
+    void attributeEnd(Tokenizer& tokens, const Position& where);
+    void transformBegin(Tokenizer& tokens, const Position& where);
+    void attribute(Tokenizer& tokens, const Position& where);
+    void push(bool isObject, const Position& where);
+    void pop(bool isObject, const char* directive, const char* opening, const Position& where);
+    void warn(const Position& where, const std::string& message);
+
+    // interpreter_transforms.cpp
+    void identity(Tokenizer& tokens, const Position& where);
+    void translate(Tokenizer& tokens, const Position& where);
+    void scale(Tokenizer& tokens, const Position& where);
+    void rotate(Tokenizer& tokens, const Position& where);
+    void lookAt(Tokenizer& tokens, const Position& where);
+    void transform(Tokenizer& tokens, const Position& where);
+    void concatTransform(Tokenizer& tokens, const Position& where);
+    void coordinateSystem(Tokenizer& tokens, const Position& where);
+    void coordSysTransform(Tokenizer& tokens, const Position& where);
+    void activeTransform(Tokenizer& tokens, const Position& where);
+    void transformTimes(Tokenizer& tokens, const Position& where);
+    void multiply(const glm::dmat4& matrix, const Position& where);
+    void setTransform(const MovingTransform& transform, const Position& where);
+
+    // interpreter_entities.cpp: what makes the scene
+    void film(Tokenizer& tokens, const Position& where);
+    void pixelFilter(Tokenizer& tokens, const Position& where);
+    void sampler(Tokenizer& tokens, const Position& where);
+    void integrator(Tokenizer& tokens, const Position& where);
+    void accelerator(Tokenizer& tokens, const Position& where);
+    void camera(Tokenizer& tokens, const Position& where);
+    void option(Tokenizer& tokens, const Position& where);
+    void colorSpace(Tokenizer& tokens, const Position& where);
+    void mediumInterface(Tokenizer& tokens, const Position& where);
+    void reverseOrientation(Tokenizer& tokens, const Position& where);
+    void material(Tokenizer& tokens, const Position& where);
+    void makeNamedMaterial(Tokenizer& tokens, const Position& where);
+    void namedMaterial(Tokenizer& tokens, const Position& where);
+    void texture(Tokenizer& tokens, const Position& where);
+    void lightSource(Tokenizer& tokens, const Position& where);
+    void areaLightSource(Tokenizer& tokens, const Position& where);
+    void shape(Tokenizer& tokens, const Position& where);
+    void objectBegin(Tokenizer& tokens, const Position& where);
+    void objectEnd(Tokenizer& tokens, const Position& where);
+    void objectInstance(Tokenizer& tokens, const Position& where);
+    void setOption(const char* directive, Tokenizer& tokens, const Position& where);
+    ParameterList list(const std::string& subject, Tokenizer& tokens, const Position& where);
+    ParameterList list(const std::string& subject, Tokenizer& tokens, const Position& where,
+                       AttributeTarget target);
+    void warnIfMoving(const char* what, const Position& where);
+
+    Scene& scene_;
+    Monitor& monitor_;
+    SceneFiles files_;
+    TextureTable textures_;
+    MaterialTable materials_;
+    OptionBlock options_;
+    GraphicsState state_;
+    std::vector<Saved> saved_;
+    bool inWorld_ = false;
+    std::map<std::string, MovingTransform> coordinateSystems_;
+    std::map<std::string, int> objects_;
+    int openObject_ = -1; // index in Scene::objects
+    std::vector<PendingInstance> instances_;
+
+    std::deque<std::string> fileNames_;  // what Positions point to
+    std::vector<std::string> openFiles_; // canonical paths, outermost first
+    std::size_t filesRead_ = 0, textBytes_ = 0;
+};
+
+} // namespace slant

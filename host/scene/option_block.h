@@ -1,0 +1,36 @@
+// What stands before WorldBegin: film, filter, camera, sampler, integrator.
+#pragma once
+#include "scene/parameters.h"
+#include "scene/scene.h"
+
+#include <map>
+#include <string>
+
+namespace slant {
+
+class Monitor;
+
+/// Keeps the directives (the last of each kind counts, as in pbrt) until all are known, since the camera's
+/// defaults hang on the film's size and the film's exposure on the camera's shutter.
+class OptionBlock {
+public:
+    /// `directive` is Film, PixelFilter, Camera, Sampler or Integrator.
+    void set(const std::string& directive, const std::string& kind, ParameterList parameters);
+    void setCameraTransform(const MovingTransform& worldFromCamera) { worldFromCamera_ = worldFromCamera; }
+
+    /// Fills the scene's part of it, with pbrt's defaults. Throws Error(badInput).
+    void resolve(Scene& scene, Monitor& monitor);
+
+private:
+    struct Entity {
+        std::string kind;
+        ParameterList parameters;
+    };
+
+    Entity& entity(const std::string& directive, const std::string& defaultKind);
+
+    std::map<std::string, Entity> entities_;
+    MovingTransform worldFromCamera_;
+};
+
+} // namespace slant

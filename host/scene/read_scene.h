@@ -1,0 +1,19 @@
+// Reads pbrt-v4 scene text of the supported subset (README, "Scene files").
+#pragma once
+#include "scene/scene.h"
+
+#include <string>
+
+namespace slant {
+
+class Monitor;
+
+/// The scene of a file, plain or gzip. Names of other files in it are relative to its directory. Throws
+/// Error(badInput) with file, line and column for whatever is malformed or outside the subset; what cannot
+/// change the picture is ignored, what might surprise goes to `monitor.warn`.
+Scene readScene(const std::string& path, Monitor& monitor);
+
+/// The same for text in memory; `name` stands for the file in messages and gives the directory.
+Scene readSceneText(const std::string& text, const std::string& name, Monitor& monitor);
+
+} // namespace slant

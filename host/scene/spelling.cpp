@@ -1,0 +1,26 @@
+#include "scene/spelling.h"
+
+#include "base/suggest.h"
+
+#include <fmt/format.h>
+#include <vector>
+
+namespace slant {
+
+std::string printable(std::string_view text) {
+    constexpr std::size_t kMaxShown = 40;
+    std::string shown;
+    for (const char c : text.substr(0, kMaxShown)) {
+        if (c >= 32 && c < 127)
+            shown += c;
+        else
+            shown += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+    }
+    return text.size() > kMaxShown ? shown + "..." : shown;
+}
+
+std::string didYouMean(std::string_view word, std::span<const std::string_view> candidates) {
+    return didYouMean(word, std::vector<std::string>(candidates.begin(), candidates.end()));
+}
+
+} // namespace slant

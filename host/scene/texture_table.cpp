@@ -1,0 +1,176 @@
+#include "scene/texture_table.h"
+
+#include "scene/scene_files.h"
+#include "scene/spelling.h"
+#include "scene/tokenizer.h"
+
+#include <charconv>
+
+namespace slant {
+namespace {
+
+constexpr int kMaxTextureDepth = 100; // textures of textures; each level is a level of recursion
+
+constexpr std::string_view kKinds[] = {"constant", "scale", "mix", "checkerboard", "imagemap"};
+
+ColourEncoding encodingOf(ParameterList& parameters) {
+    const std::optional<std::string> name = parameters.text("encoding");
+    if (!name) return {};
+    if (*name == "sRGB") return {ColourEncoding::Kind::srgb};
+    if (*name == "linear") return {ColourEncoding::Kind::linear};
+    if (name->starts_with("gamma ")) {
+        float exponent = 0;
+        const char* const end = name->data() + name->size();
+        if (const auto result = std::from_chars(name->data() + 6, end, exponent);
+            result.ec == std::errc() && result.ptr == end && exponent > 0 && exponent <= 10)
+            return {ColourEncoding::Kind::gamma, exponent};
+    }
+    throw badInput(parameters.positionOf("encoding"),
+                   "'encoding' is \"{}\", but must be \"sRGB\", \"linear\" or \"gamma N\"", printable(*name));
+}
+
+} // namespace
+
+void TextureTable::define(bool isFloat, const std::string& name, const std::string& kind,
+                          ParameterList parameters, const glm::dmat4& textureFromWorld) {
+    const Position where = parameters.position();
+    Definition definition{isFloat, kind, std::move(parameters), textureFromWorld};
+    if (!definitions_.try_emplace({isFloat, name}, std::move(definition)).second)
+        throw badInput(where, "the {} texture '{}' is defined twice", isFloat ? "float" : "spectrum",
+                       printable(name));
+}
+
+int TextureTable::constant(glm::vec3 value) {
+    Texture texture;
+    texture.value = value;
+    scene_.textures.push_back(texture);
+    return int(scene_.textures.size()) - 1;
+}
+
+int TextureTable::named(bool isFloat, const Parameter& parameter) {
+    const std::string& name = parameter.strings[0];
+    if (parameter.strings.size() != 1)
+        throw badInput(parameter.position, "'{}' must have one value", parameter.name);
+    const auto found = definitions_.find({isFloat, name});
+    if (found != definitions_.end()) return build(found->second);
+    if (definitions_.contains({!isFloat, name}))
+        throw badInput(parameter.position, "'{}' needs a {} texture, but '{}' is a {} texture",
+                       parameter.name, isFloat ? "float" : "spectrum", printable(name),
+                       isFloat ? "spectrum" : "float");
+    std::vector<std::string_view> names;
+    for (const auto& [key, definition] : definitions_)
+        if (key.first == isFloat) names.push_back(key.second);
+    throw badInput(parameter.position, "there is no {} texture '{}'{}", isFloat ? "float" : "spectrum",
+                   printable(name), didYouMean(name, names));
+}
+
+int TextureTable::floatTexture(ParameterList& parameters, std::string_view name,
+                               std::optional<float> fallback, Range range) {
+    const Parameter* parameter = parameters.find(name, {"float", "texture"});
+    if (parameter && parameter->type == "texture") return named(true, *parameter);
+    const std::optional<float> value = parameters.number(name, range);
+    if (!value && !fallback) return -1;
+    return constant(glm::vec3(value.value_or(fallback.value_or(0))));
+}
+
+int TextureTable::spectrumTexture(ParameterList& parameters, std::string_view name, SpectrumUse use,
+                                  std::optional<glm::vec3> fallback) {
+    const Parameter* parameter = parameters.find(name, {"rgb", "spectrum", "blackbody", "texture"});
+    if (parameter && parameter->type == "texture") return named(false, *parameter);
+    if (parameter) return constant(spectrumValue(*parameter, use));
+    return fallback ? constant(*fallback) : -1;
+}
+
+void TextureTable::buildAll() {
+    for (auto& [key, definition] : definitions_) build(definition);
+}
+
+int TextureTable::build(Definition& definition) {
+    if (definition.index >= 0) return definition.index;
+    if (definition.inProgress)
+        throw badInput(definition.parameters.position(), "this texture is made of itself");
+    if (depth_ >= kMaxTextureDepth)
+        throw badInput(definition.parameters.position(), "textures are nested more than {} deep",
+                       kMaxTextureDepth);
+    definition.inProgress = true;
+    ++depth_;
+    const Texture texture = make(definition);
+    --depth_;
+    definition.parameters.finish();
+    scene_.textures.push_back(texture);
+    return definition.index = int(scene_.textures.size()) - 1;
+}
+
+int TextureTable::child(Definition& definition, std::string_view name, float fallback) {
+    if (definition.isFloat) return floatTexture(definition.parameters, name, fallback);
+    return spectrumTexture(definition.parameters, name, SpectrumUse::albedo, glm::vec3(fallback));
+}
+
+Texture TextureTable::make(Definition& definition) {
+    ParameterList& parameters = definition.parameters;
+    Texture texture;
+    if (definition.kind == "constant") {
+        if (definition.isFloat)
+            texture.value = glm::vec3(parameters.number("value", 1));
+        else if (const Parameter* value = findSpectrum(parameters, "value"))
+            texture.value = spectrumValue(*value, SpectrumUse::albedo);
+    } else if (definition.kind == "scale") {
+        texture.kind = TextureKind::scale;
+        texture.child = {child(definition, "tex", 1), floatTexture(parameters, "scale", 1.f), -1};
+    } else if (definition.kind == "mix") {
+        texture.kind = TextureKind::mix;
+        texture.child = {child(definition, "tex1", 0), child(definition, "tex2", 1),
+                         floatTexture(parameters, "amount", 0.5f)};
+    } else if (definition.kind == "checkerboard") {
+        texture.kind = TextureKind::checkerboard;
+        texture.child = {child(definition, "tex1", 1), child(definition, "tex2", 0), -1};
+        if (parameters.integer("dimension", 2, 2, 3) == 3)
+            throw badInput(parameters.positionOf("dimension"),
+                           "checkerboards of dimension 3 are not supported");
+        readMapping(texture, definition);
+    } else if (definition.kind == "imagemap") {
+        texture.kind = TextureKind::imagemap;
+        readMapping(texture, definition);
+        readImage(texture, definition);
+    } else {
+        throw badInput(parameters.position(), "texture kind \"{}\" is not supported{}",
+                       printable(definition.kind), didYouMean(definition.kind, kKinds));
+    }
+    return texture;
+}
+
+void TextureTable::readMapping(Texture& texture, Definition& definition) {
+    ParameterList& parameters = definition.parameters;
+    texture.uvDelta = {parameters.number("udelta", 0), parameters.number("vdelta", 0)};
+    if (parameters.choice("mapping", "uv", {"uv", "planar"}) == "uv") {
+        texture.uvScale = {parameters.number("uscale", 1), parameters.number("vscale", 1)};
+        return;
+    }
+    texture.mapping = TextureMapping::planar;
+    texture.textureFromWorld = definition.textureFromWorld;
+    texture.planarV1 = parameters.triple("v1", "vector3", {1, 0, 0});
+    texture.planarV2 = parameters.triple("v2", "vector3", {0, 1, 0});
+}
+
+void TextureTable::readImage(Texture& texture, Definition& definition) {
+    ParameterList& parameters = definition.parameters;
+    const std::optional<std::string> filename = parameters.text("filename");
+    if (!filename)
+        throw badInput(parameters.position(), "{} needs \"string filename\"", parameters.subject());
+    texture.imageIndex = files_.image(*filename, encodingOf(parameters), definition.isFloat,
+                                      parameters.positionOf("filename"));
+    const std::string wrap =
+        parameters.choice("wrap", "repeat", {"repeat", "black", "clamp", "octahedralsphere"});
+    texture.wrap = wrap == "repeat"  ? WrapMode::repeat
+                   : wrap == "black" ? WrapMode::black
+                   : wrap == "clamp" ? WrapMode::clamp
+                                     : WrapMode::octahedralSphere;
+    const std::string filter =
+        parameters.choice("filter", "bilinear", {"point", "bilinear", "trilinear", "ewa", "EWA"});
+    texture.filter = filter == "point" ? TexelFilter::point : TexelFilter::bilinear;
+    texture.scale = parameters.number("scale", 1);
+    texture.invert = parameters.flag("invert", false);
+    parameters.ignore({"maxanisotropy"});
+}
+
+} // namespace slant

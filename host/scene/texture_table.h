@@ -1,0 +1,61 @@
+// Named textures and the parameters that take either a value or a texture.
+#pragma once
+#include "scene/parameters.h"
+#include "scene/scene.h"
+#include "scene/spectra.h"
+
+#include <map>
+#include <optional>
+#include <string>
+
+namespace slant {
+
+class SceneFiles;
+
+/// Builds Scene::textures. A texture may be named before it is defined (pbrt makes all of them at the end),
+/// so definitions are kept and built when first needed.
+class TextureTable {
+public:
+    /// Both must outlive this.
+    TextureTable(Scene& scene, SceneFiles& files) : scene_(scene), files_(files) {}
+
+    /// `isFloat`: else a spectrum texture; the two have names of their own. `textureFromWorld` is the inverse
+    /// of the transform at the directive. Throws Error(badInput) if the name is taken.
+    void define(bool isFloat, const std::string& name, const std::string& kind, ParameterList parameters,
+                const glm::dmat4& textureFromWorld);
+
+    /// Index of the texture that the parameter `name` means; -1 if it is not there and has no `fallback`.
+    int floatTexture(ParameterList& parameters, std::string_view name, std::optional<float> fallback,
+                     Range range = {});
+    int spectrumTexture(ParameterList& parameters, std::string_view name, SpectrumUse use,
+                        std::optional<glm::vec3> fallback);
+
+    /// Builds what nobody named too, so that its errors are found.
+    void buildAll();
+
+private:
+    struct Definition {
+        bool isFloat;
+        std::string kind;
+        ParameterList parameters;
+        glm::dmat4 textureFromWorld;
+        int index = -1;
+        bool inProgress = false;
+    };
+    using Key = std::pair<bool, std::string>; // float?, name
+
+    int constant(glm::vec3 value);
+    int named(bool isFloat, const Parameter& parameter);
+    int build(Definition& definition);
+    Texture make(Definition& definition);
+    void readMapping(Texture& texture, Definition& definition);
+    void readImage(Texture& texture, Definition& definition);
+    int child(Definition& definition, std::string_view name, float fallback);
+
+    Scene& scene_;
+    SceneFiles& files_;
+    std::map<Key, Definition> definitions_;
+    int depth_ = 0;
+};
+
+} // namespace slant

@@ -1,0 +1,53 @@
+// Splits pbrt scene text into tokens that know where they stand.
+#pragma once
+#include "scene/position.h"
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace slant {
+
+enum class TokenKind { word, string, open, close, end };
+
+/// `text` of a string is without its quotes, escapes resolved. Valid as long as the Tokenizer and its text.
+struct Token {
+    TokenKind kind = TokenKind::end;
+    std::string_view text;
+    Position position;
+
+    /// What to call it in a message.
+    std::string shown() const;
+};
+
+/// Comments and white space are skipped. Throws Error(badInput) for strings that do not end in their line.
+class Tokenizer {
+public:
+    /// Both must outlive the tokenizer; `name` also every Position.
+    Tokenizer(std::string_view text, const std::string* name) : text_(text), position_{name, 1, 1} {}
+
+    Token next();
+    const Token& peek();
+
+private:
+    Token scan();
+    Token scanString(Token token);
+    char advance();
+    void skipBlanks();
+
+    std::string_view text_;
+    std::size_t offset_ = 0;
+    Position position_;
+    std::optional<Token> peeked_;
+    std::deque<std::string> unescaped_; // strings with escapes, resolved; stable addresses
+};
+
+/// The token's value. Throws Error(badInput) if it is not a finite number in float's range.
+double numberOf(const Token& token);
+/// The same for a 32-bit integer, without fraction or exponent.
+int integerOf(const Token& token);
+/// The same for a quoted string.
+std::string stringOf(const Token& token);
+
+} // namespace slant
