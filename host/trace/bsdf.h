@@ -1,0 +1,81 @@
+// How a point of a surface scatters light: one plain struct with a switch over kinds, made for one outgoing
+// direction, so that whatever depends on that direction alone is computed once.
+//
+// pbrt-v4's shading frame decides alone which side a direction is on; all kinds reflect only, alike on both
+// sides. Values are densities over solid angle times |cos| of the incident direction to the shading normal.
+#pragma once
+#include "trace/coat.h"
+#include "trace/microfacet.h"
+
+namespace slant {
+
+struct BsdfSample {
+    glm::vec3 direction{0, 0, 1}; ///< unit, world space
+    glm::vec3 weight{0};          ///< value * cos / density
+    float pdf = 0;                ///< density over solid angle; of no meaning if specular
+    bool specular = false;        ///< a mirror direction: no other strategy can find it
+};
+
+class Bsdf {
+public:
+    enum class Kind { black, diffuse, mirror, conductor, smoothCoat, roughCoat };
+
+    /// Absorbs everything.
+    Bsdf() = default;
+    /// `normal`: unit shading normal on either side; wo: unit, from the surface to where the path came from.
+    static Bsdf diffuse(glm::vec3 normal, glm::vec3 wo, glm::vec3 reflectance);
+    /// Mirror where `facets` is smooth. `tangent` gives the direction of facets.alpha.x.
+    static Bsdf conductor(glm::vec3 normal, glm::vec3 tangent, glm::vec3 wo, Microfacets facets,
+                          glm::vec3 eta, glm::vec3 k);
+    /// `coat` must outlive the result.
+    static Bsdf coatedDiffuse(glm::vec3 normal, glm::vec3 tangent, glm::vec3 wo, Microfacets facets,
+                              const Coat& coat, glm::vec3 reflectance);
+
+    Kind kind() const { return kind_; }
+    /// Shading normal on the side of wo; 0 for a black one.
+    glm::vec3 normal() const { return normal_; }
+    /// Some directions scatter by other than a mirror: sampling lights makes sense.
+    bool scatters() const { return kind_ != Kind::black && kind_ != Kind::mirror; }
+    /// sample() uses its `lobe`.
+    bool hasTwoLobes() const { return kind_ == Kind::smoothCoat || kind_ == Kind::roughCoat; }
+    /// Some light leaves in a mirror direction.
+    bool hasMirror() const { return kind_ == Kind::smoothCoat || kind_ == Kind::mirror; }
+    /// A peaked lobe: sampling lights alone would be noisy, so that strategies must be combined.
+    bool glossy() const { return kind_ == Kind::conductor || kind_ == Kind::roughCoat; }
+
+    /// Value * cos for light from wi (unit, world space), without mirror lobes.
+    glm::vec3 evaluate(glm::vec3 wi) const;
+    /// Density with which sample() returns wi, mirror lobes aside.
+    float pdf(glm::vec3 wi) const;
+    /// False if the light is absorbed. `lobe` and `u` uniform in [0, 1).
+    bool sample(float lobe, glm::vec2 u, BsdfSample& result) const;
+    /// Estimate of the reflected part of uniform light, for denoisers; in [0, 1].
+    glm::vec3 albedo() const;
+
+private:
+    bool setDirections(glm::vec3 normal, glm::vec3 wo);
+    void makeFrame(glm::vec3 tangent);
+    glm::vec3 fresnel(float cosine) const;
+    glm::vec3 facetValue(glm::vec3 wi) const;
+    float facetPdf(glm::vec3 wi) const;
+    glm::vec3 baseValue(glm::vec3 localWi) const;
+    float alphaAlong(glm::vec3 w) const;
+    bool sampleMirror(BsdfSample& result) const;
+    bool sampleFacets(glm::vec2 u, BsdfSample& result) const;
+    bool sampleBase(glm::vec2 u, BsdfSample& result) const;
+
+    Kind kind_ = Kind::black;
+    glm::vec3 normal_{0}, wo_{0};
+    float cosineOut_ = 0;
+    glm::vec3 colour_{0}; ///< diffuse: reflectance; coats: base factor times T(wo)
+    // The rest is set for those kinds only that read it.
+    glm::vec3 eta_, k_;
+    Microfacets facets_;
+    Frame frame_;
+    glm::vec3 localWo_;
+    float masking_;     ///< lambda of wo
+    float facetChance_; ///< coats: chance of sampling the interface
+    const Coat* coat_;
+};
+
+} // namespace slant

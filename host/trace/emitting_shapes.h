@@ -1,0 +1,24 @@
+// Area lights: turns the shapes of a scene that emit into emitters, one or two a triangle, patch or quadric.
+#pragma once
+#include "scene/scene.h"
+#include "trace/emitter.h"
+
+namespace slant {
+
+/// Where the pieces of one shape with an area light lie among the emitters.
+struct EmittingShape {
+    int first;
+    bool patches; ///< two pieces a primitive: the halves beside p10-p01 of a flat patch, or the patch twice
+};
+
+struct EmittingShapes {
+    std::vector<Emitter> emitters;
+    std::vector<EmitterQuadric> quadrics;
+    std::vector<EmittingShape> shapes; ///< one for each of Scene::shapes with an area light, in their order
+};
+
+/// Radiance follows pbrt-v4: `power`, in watts, is what each triangle, patch or quadric of the shape emits.
+/// Emitters that move are not `sampled`, nor are those without area.
+EmittingShapes makeEmitters(const Scene& scene);
+
+} // namespace slant

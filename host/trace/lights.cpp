@@ -1,0 +1,232 @@
+#include "trace/lights.h"
+
+#include "base/error.h"
+
+namespace slant {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// Mean luminance times cosine over the upper half (z > 0) of the map times 2 pi: what pbrt-v4 scales to the
+/// wanted illuminance. (The solid angle of that half would give 4 pi; the same picture matters more.)
+float mapIlluminance(const Image& image) {
+    double sum = 0;
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x) {
+            glm::vec2 st((float(x) + 0.5f) / float(image.width()), (float(y) + 0.5f) / float(image.height()));
+            float cosine = equalAreaSquareToSphere(st).z;
+            if (cosine <= 0) continue;
+            sum += double(cosine * luminance({image.at(x, y, 0), image.at(x, y, 1), image.at(x, y, 2)}));
+        }
+    return float(2 * double(kPi) * sum / (double(image.width()) * double(image.height())));
+}
+
+/// The box, cone and strength of an emitter.
+LightBounds boundsOf(const Emitter& e, const std::vector<EmitterQuadric>& quadrics) {
+    LightBounds b;
+    b.low = b.high = e.origin;
+    b.twoSided = e.twoSided;
+    b.intensity = luminance(e.radiance) * e.area;
+    b.cosineSpread = -1;
+    auto cover = [&](glm::vec3 p) {
+        b.low = glm::min(b.low, p);
+        b.high = glm::max(b.high, p);
+    };
+    switch (e.shape) {
+    case Emitter::Shape::point:
+        b.intensity = luminance(e.radiance);
+        break;
+    case Emitter::Shape::patch:
+        cover(e.origin + e.edge1 + e.edge2 + e.twist);
+        [[fallthrough]];
+    case Emitter::Shape::triangle:
+        cover(e.origin + e.edge1);
+        cover(e.origin + e.edge2);
+        if (e.shape == Emitter::Shape::triangle) {
+            b.axis = e.normal;
+            b.cosineSpread = 1;
+        }
+        break;
+    case Emitter::Shape::sphere:
+        b.low -= e.radius;
+        b.high += e.radius;
+        break;
+    case Emitter::Shape::quadric: {
+        const EmitterQuadric& q = quadrics[std::size_t(e.quadric)];
+        float low = q.disc ? q.height : -q.radius, high = q.disc ? q.height : q.radius;
+        b.low = glm::vec3(kInfinity);
+        b.high = glm::vec3(-kInfinity);
+        for (int corner = 0; corner < 8; ++corner)
+            cover(glm::vec3(q.worldFromObject * glm::vec4(corner & 1 ? q.radius : -q.radius,
+                                                          corner & 2 ? q.radius : -q.radius,
+                                                          corner & 4 ? high : low, 1)));
+        break;
+    }
+    }
+    return b;
+}
+
+} // namespace
+
+Lights::Lights(const Scene& scene) {
+    EmittingShapes made = makeEmitters(scene);
+    emitters_ = std::move(made.emitters);
+    quadrics_ = std::move(made.quadrics);
+    shapes_ = std::move(made.shapes);
+    for (const Light& light : scene.lights) addLight(scene, light);
+    for (const Shape& shape : scene.shapes)
+        if (shape.areaLightIndex >= 0 && shape.worldFromObject.moves()) complete_ = false;
+    addTree();
+}
+
+void Lights::addLight(const Scene& scene, const Light& light) {
+    glm::vec3 emission = light.emission * light.scale;
+    switch (light.kind) {
+    case LightKind::point: {
+        Emitter e;
+        e.origin = transformPoint(light.worldFromLight, light.from);
+        e.radiance = emission * (light.power ? *light.power / (4 * kPi) : 1.f);
+        emitters_.push_back(e);
+        break;
+    }
+    case LightKind::distant: {
+        glm::dvec3 back = glm::dmat3(light.worldFromLight) * (glm::dvec3(light.from) - glm::dvec3(light.to));
+        if (!(glm::length(back) > 0))
+            throw badInput(light.location, "distant light: \"from\" and \"to\" are the same");
+        distant_.push_back({glm::vec3(glm::normalize(back)), emission * light.illuminance.value_or(1.f)});
+        break;
+    }
+    case LightKind::infinite:
+        if (light.imageIndex < 0) {
+            infinite_.emplace_back(emission * (light.illuminance ? *light.illuminance / kPi : 1.f));
+            break;
+        }
+        const Image& image = scene.images[std::size_t(light.imageIndex)];
+        if (image.width() != image.height() || image.width() < 1 || image.channelCount() != 3)
+            throw badInput(light.location,
+                           "infinite light: its image must be square (equal-area octahedral) with "
+                           "channels R, G, B; it is {} x {} with {} channels",
+                           image.width(), image.height(), image.channelCount());
+        float scale = light.scale;
+        if (light.illuminance) {
+            float given = mapIlluminance(image);
+            if (!(given > 0))
+                throw badInput(light.location,
+                               "infinite light: \"illuminance\" needs an image that is not black above");
+            scale *= *light.illuminance / given;
+        }
+        infinite_.emplace_back(image, scale, light.worldFromLight);
+        break;
+    }
+}
+
+void Lights::addTree() {
+    std::vector<LightBounds> bounds;
+    treeIndexOf_.assign(emitters_.size(), -1);
+    for (std::size_t i = 0; i < emitters_.size(); ++i) {
+        const Emitter& e = emitters_[i];
+        if (!e.sampled || !(luminance(e.radiance) > 0)) continue;
+        if (!e.bounded()) complete_ = false;
+        treeIndexOf_[i] = int(bounds.size());
+        emitterInTree_.push_back(int(i));
+        bounds.push_back(boundsOf(e, quadrics_));
+    }
+    tree_ = LightTree(bounds);
+    needsChoice_ = optionCount() > 1 || bounds.size() > 1 || !infinite_.empty();
+}
+
+int Lights::pieceOf(const SurfaceHit& hit) const {
+    const EmittingShape& shape = shapes_[std::size_t(hit.emitter.light)];
+    if (!shape.patches) return shape.first + hit.emitter.primitive;
+    int piece = shape.first + 2 * hit.emitter.primitive;
+    const Emitter& e = emitters_[std::size_t(piece)];
+    if (e.shape == Emitter::Shape::patch) return piece;
+    // Beyond the edge p10-p01 lies the other half.
+    glm::vec3 inwards = glm::cross(glm::cross(e.edge1, e.edge2), e.edge2 - e.edge1);
+    return glm::dot(inwards, hit.position - (e.origin + e.edge1)) >= 0 ? piece : piece + 1;
+}
+
+glm::vec3 Lights::emitted(const SurfaceHit& hit, glm::vec3 wo) const {
+    if (hit.emitter.light < 0) return glm::vec3(0);
+    const Emitter& e = emitters_[std::size_t(pieceOf(hit))];
+    return e.twoSided || glm::dot(hit.geometricNormal, wo) >= 0 ? e.radiance : glm::vec3(0);
+}
+
+bool Lights::complete(const SurfaceHit& hit) const {
+    int piece = pieceOf(hit);
+    return treeIndexOf_[std::size_t(piece)] >= 0 && emitters_[std::size_t(piece)].bounded();
+}
+
+float Lights::importance(std::size_t option, const Receiver& receiver) const {
+    if (option < infinite_.size()) return kPi * luminance(infinite_[option].meanRadiance());
+    option -= infinite_.size();
+    if (option < distant_.size())
+        return luminance(distant_[option].radiance) *
+               std::max(0.f, glm::dot(receiver.normal, distant_[option].direction));
+    return tree_.importance(receiver);
+}
+
+float Lights::optionChance(std::size_t option, const Receiver& receiver) const {
+    if (optionCount() == 1) return 1;
+    float total = 0;
+    for (std::size_t i = 0; i < optionCount(); ++i) total += importance(i, receiver);
+    return total > 0 ? importance(option, receiver) / total : 0;
+}
+
+bool Lights::sample(const Receiver& receiver, float choice, glm::vec2 u, LightSample& sample) const {
+    std::size_t count = optionCount(), option = 0;
+    if (count == 0) return false;
+    float chance = 1;
+    if (count > 1) {
+        float total = 0;
+        for (std::size_t i = 0; i < count; ++i) total += importance(i, receiver);
+        if (!(total > 0)) return false;
+        float rest = choice * total;
+        for (;; ++option) {
+            float part = importance(option, receiver);
+            if (part > 0 && (rest < part || option + 1 == count)) {
+                chance = part / total;
+                choice = std::min(rest / part, 0x1.fffffep-1f);
+                break;
+            }
+            if (option + 1 == count) return false;
+            rest -= part;
+        }
+    }
+    if (option < infinite_.size()) {
+        const Environment& environment = infinite_[option];
+        sample.direction = environment.sample(receiver.normal, choice, u);
+        sample.distance = kInfinity;
+        sample.radiance = environment.radiance(sample.direction);
+        sample.pdf = chance * environment.pdf(receiver.normal, sample.direction);
+        sample.delta = false;
+        sample.bounded = true;
+        return sample.pdf > 0;
+    }
+    if (option < infinite_.size() + distant_.size()) {
+        const Distant& distant = distant_[option - infinite_.size()];
+        sample = {distant.direction, kInfinity, distant.radiance, chance, true, true};
+        return true;
+    }
+    float treeChance;
+    int index = tree_.sample(receiver, choice, treeChance);
+    if (index < 0) return false;
+    const Emitter& e = emitters_[std::size_t(emitterInTree_[std::size_t(index)])];
+    if (!sampleEmitter(e, quadrics_, receiver, u, sample)) return false;
+    sample.pdf *= chance * treeChance;
+    return true;
+}
+
+float Lights::pdf(const Receiver& receiver, const SurfaceHit& hit, glm::vec3 direction) const {
+    int piece = pieceOf(hit), index = treeIndexOf_[std::size_t(piece)];
+    if (index < 0) return 0;
+    return optionChance(optionCount() - 1, receiver) * tree_.chance(receiver, index) *
+           emitterPdf(emitters_[std::size_t(piece)], quadrics_, receiver, direction, hit.position,
+                      hit.geometricNormal);
+}
+
+float Lights::infinitePdf(const Receiver& receiver, std::size_t i, glm::vec3 direction) const {
+    return optionChance(i, receiver) * infinite_[i].pdf(receiver.normal, direction);
+}
+
+} // namespace slant

@@ -1,0 +1,74 @@
+#include "trace/path.h"
+
+namespace slant {
+namespace {
+
+/// Shadow rays end this part of their length before the light, so that they do not meet it (pbrt-v4's
+/// ShadowEpsilon).
+constexpr float kShadowEpsilon = 1e-4f;
+
+float powerHeuristic(float pdf, float otherPdf) {
+    if (std::isinf(pdf)) return 1;
+    float a = pdf * pdf, b = otherPdf * otherPdf;
+    return a > 0 ? a / (a + b) : 0;
+}
+
+} // namespace
+
+void addEmission(const Lights& lights, const SurfaceHit& hit, glm::vec3 wo, PathState& state) {
+    if (hit.hit()) {
+        glm::vec3 emitted = lights.emitted(hit, wo);
+        if (emitted == glm::vec3(0)) return;
+        float weight = 1;
+        if (state.origin == PathState::Origin::diffuse && lights.complete(hit)) return;
+        if (state.origin != PathState::Origin::camera)
+            weight = powerHeuristic(state.pdf, lights.pdf(state.receiver, hit, -wo));
+        state.radiance += state.throughput * emitted * weight;
+        return;
+    }
+    if (state.origin == PathState::Origin::diffuse) return;
+    for (std::size_t i = 0; i < lights.infiniteCount(); ++i) {
+        float weight = 1;
+        if (state.origin == PathState::Origin::glossy)
+            weight = powerHeuristic(state.pdf, lights.infinitePdf(state.receiver, i, -wo));
+        state.radiance += state.throughput * lights.infinite(i).radiance(-wo) * weight;
+    }
+}
+
+ShadowRay sampleDirectLight(const Lights& lights, const Bsdf& bsdf, const SurfaceHit& hit,
+                            const PathState& state, float choice, glm::vec2 u) {
+    ShadowRay shadow;
+    LightSample light;
+    if (!lights.sample({hit.position, bsdf.normal()}, choice, u, light)) return shadow;
+    glm::vec3 value = bsdf.evaluate(light.direction);
+    if (value == glm::vec3(0) || light.radiance == glm::vec3(0)) return shadow;
+    float weight = 1;
+    if (!light.delta && (!light.bounded || bsdf.glossy()))
+        weight = powerHeuristic(light.pdf, bsdf.pdf(light.direction));
+    shadow.contribution = state.throughput * value * light.radiance * (weight / light.pdf);
+    shadow.ray = {offsetRayOrigin(hit.position, hit.positionError, hit.geometricNormal, light.direction),
+                  light.direction, light.distance * (1 - kShadowEpsilon), state.ray.time};
+    return shadow;
+}
+
+bool bsdfRayNeeded(const Lights& lights, const Bsdf& bsdf) {
+    return lights.canBeSeen() && (bsdf.hasMirror() || bsdf.glossy() || !lights.complete());
+}
+
+bool continuePath(const Lights& lights, const Bsdf& bsdf, const SurfaceHit& hit, int maxDepth, float lobe,
+                  glm::vec2 u, PathState& state) {
+    BsdfSample next;
+    if (!bsdf.sample(lobe, u, next) || next.weight == glm::vec3(0)) return false;
+    if (state.depth == maxDepth && !next.specular && !bsdf.glossy() && lights.complete()) return false;
+    state.origin = next.specular   ? PathState::Origin::camera
+                   : bsdf.glossy() ? PathState::Origin::glossy
+                                   : PathState::Origin::diffuse;
+    state.throughput *= next.weight;
+    state.receiver = {hit.position, bsdf.normal()};
+    state.pdf = next.pdf;
+    state.ray = {offsetRayOrigin(hit.position, hit.positionError, hit.geometricNormal, next.direction),
+                 next.direction, std::numeric_limits<float>::infinity(), state.ray.time};
+    return true;
+}
+
+} // namespace slant

@@ -1,0 +1,122 @@
+// The path integrator: radiance along a ray with up to `maxDepth` scattering events, as pbrt-v4's "path"
+// means it (maxdepth 1 = direct light; light seen directly or in a mirror always counts; mirror bounces
+// count).
+//
+// It is written as one step a vertex, so that a caller can trace many paths at once:
+//
+//     startPath -> repeat: intersect state.ray, scatter, add shadow.contribution unless occluded; while
+//     scatter is true
+//
+// tracePath does this for a single path. Geometry never appears here other than as hits.
+//
+// Strategies. Lights with bounded estimates (all but discs, cut spheres, bent patches and moving shapes) are
+// only sampled as lights on diffuse surfaces and on the diffuse part of a smooth coat: one shadow ray is the
+// whole of direct light there, and a ray that scattered so and meets such a light adds nothing. Everywhere
+// else light sampling and scattering are combined by the power heuristic (Veach 1997, section 9.2). Both
+// have the expectation that pbrt's two-ray estimate has.
+#pragma once
+#include "lightfield/lightfield.h"
+#include "trace/lights.h"
+#include "trace/materials.h"
+
+namespace slant {
+
+/// What shading needs of a scene, which must live longer.
+struct Shading {
+    explicit Shading(const Scene& scene) : materials(scene), lights(scene) {}
+    Materials materials;
+    Lights lights;
+};
+
+/// Light that arrives if nothing is in the way.
+struct ShadowRay {
+    Ray ray;
+    glm::vec3 contribution{
+        0}; ///< add it to the path's radiance unless the ray is occluded; 0: nothing to trace
+
+    bool needed() const { return contribution != glm::vec3(0); }
+};
+
+/// A path under way.
+struct PathState {
+    /// How the ray left its origin: what the light that it meets counts.
+    enum class Origin { camera, diffuse, glossy };
+
+    Ray ray; ///< to be intersected next
+    glm::vec3 radiance{0};
+    glm::vec3 throughput{1};
+    int depth = 0; ///< scattering events so far
+    Origin origin = Origin::camera;
+    Receiver receiver; ///< the ray's origin, unless it is the camera
+    float pdf = 0;     ///< of the ray's direction there
+};
+
+inline PathState startPath(const Ray& cameraRay) {
+    PathState state;
+    state.ray = cameraRay;
+    return state;
+}
+
+/// Adds what the ray met of light: `hit`, or the infinite lights where nothing was hit. `wo`: unit, against
+/// the ray.
+void addEmission(const Lights& lights, const SurfaceHit& hit, glm::vec3 wo, PathState& state);
+
+/// Direct light at a vertex by sampling one light.
+ShadowRay sampleDirectLight(const Lights& lights, const Bsdf& bsdf, const SurfaceHit& hit,
+                            const PathState& state, float choice, glm::vec2 u);
+
+/// Whether a last vertex sends a ray just to see what light it meets.
+bool bsdfRayNeeded(const Lights& lights, const Bsdf& bsdf);
+
+/// Sends the path on from a vertex: sets its ray, throughput and origin. False if it ends here: the light is
+/// absorbed, or a last vertex chose a direction that bsdfRayNeeded does not ask for.
+bool continuePath(const Lights& lights, const Bsdf& bsdf, const SurfaceHit& hit, int maxDepth, float lobe,
+                  glm::vec2 u, PathState& state);
+
+/// One vertex: state.ray met `hit` (or nothing: !hit.hit()). Fills `shadow`; true if state.ray is to be
+/// traced on. `auxiliary`, if not null, receives what denoisers want of this vertex. Sampler: float next1D(),
+/// glm::vec2 next2D(), uniform in [0, 1).
+template <typename Sampler>
+bool scatter(const Shading& shading, const SurfaceHit& hit, int maxDepth, Sampler& sampler, PathState& state,
+             ShadowRay& shadow, AuxiliarySample* auxiliary = nullptr) {
+    shadow.contribution = glm::vec3(0);
+    if (auxiliary) *auxiliary = {glm::vec3(0), glm::vec3(0)};
+    glm::vec3 wo = -glm::normalize(state.ray.direction);
+    addEmission(shading.lights, hit, wo, state);
+    if (!hit.hit() || (state.depth == maxDepth && !auxiliary)) return false;
+    Bsdf bsdf = shading.materials.bsdf(hit, wo);
+    if (auxiliary) *auxiliary = {bsdf.albedo(), bsdf.normal()};
+    if (state.depth++ == maxDepth) return false;
+
+    if (bsdf.scatters() && shading.lights.canSample()) {
+        float choice = shading.lights.needsChoice() ? sampler.next1D() : 0.f;
+        shadow = sampleDirectLight(shading.lights, bsdf, hit, state, choice, sampler.next2D());
+    }
+    if (state.depth == maxDepth && !bsdfRayNeeded(shading.lights, bsdf)) return false;
+    float lobe = bsdf.hasTwoLobes() ? sampler.next1D() : 0.f;
+    if (!continuePath(shading.lights, bsdf, hit, maxDepth, lobe, sampler.next2D(), state)) return false;
+
+    float brightest = maxComponent(state.throughput);
+    if (brightest < 1 && state.depth > 1) { // Russian roulette, as in pbrt-v4
+        if (sampler.next1D() >= brightest) return false;
+        state.throughput /= brightest;
+    }
+    return true;
+}
+
+/// Radiance along a camera ray. Geometry: bool intersect(const Ray&, SurfaceHit&), bool occluded(const Ray&).
+template <typename Geometry, typename Sampler>
+glm::vec3 tracePath(const Geometry& geometry, const Shading& shading, const Ray& cameraRay, int maxDepth,
+                    Sampler& sampler) {
+    PathState state = startPath(cameraRay);
+    ShadowRay shadow;
+    for (bool on = true; on;) {
+        SurfaceHit hit;
+        geometry.intersect(state.ray, hit);
+        on = scatter(shading, hit, maxDepth, sampler, state, shadow);
+        if (shadow.needed() && !geometry.occluded(shadow.ray)) state.radiance += shadow.contribution;
+    }
+    return state.radiance;
+}
+
+} // namespace slant
