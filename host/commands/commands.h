@@ -11,8 +11,9 @@ namespace slant::commands {
 using AddCommand = void (*)(CLI::App& program);
 
 void addDiff(CLI::App& program);
+void addDevices(CLI::App& program);
 
 /// In the order in which `slant --help` lists them.
-inline constexpr std::initializer_list<AddCommand> kCommands = {addDiff};
+inline constexpr std::initializer_list<AddCommand> kCommands = {addDiff, addDevices};
 
 } // namespace slant::commands

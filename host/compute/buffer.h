@@ -7,8 +7,8 @@
 #include "compute/device.h"
 #include "compute/texel_format.h"
 
+#include <ranges>
 #include <span>
-#include <type_traits>
 
 namespace slant {
 
@@ -25,17 +25,17 @@ public:
     std::uint64_t texels() const;
     std::uint64_t bytes() const { return texels() * texelBytes(format()); }
 
-    /// Copies `values` to the texels from `firstTexel` on, or the reverse. Elements may be of any trivially
-    /// copyable type; throws Error(usage) if the span, in bytes, does not lie in the buffer.
-    template <typename T>
-    void upload(std::span<const T> values, std::uint64_t firstTexel = 0) {
-        static_assert(std::is_trivially_copyable_v<T>);
-        uploadBytes(std::as_bytes(values), firstTexel);
+    /// Copies `values` (a vector, span, array of any trivially copyable type) to the texels from `firstTexel`
+    /// on, or these into `values`. Throws Error(usage) if that many bytes do not lie in the buffer.
+    template <std::ranges::contiguous_range Values>
+    void upload(const Values& values, std::uint64_t firstTexel = 0) {
+        uploadBytes(std::as_bytes(std::span(std::ranges::data(values), std::ranges::size(values))),
+                    firstTexel);
     }
-    template <typename T>
-    void download(std::span<T> values, std::uint64_t firstTexel = 0) const {
-        static_assert(std::is_trivially_copyable_v<T>);
-        downloadBytes(std::as_writable_bytes(values), firstTexel);
+    template <std::ranges::contiguous_range Values>
+    void download(Values&& values, std::uint64_t firstTexel = 0) const {
+        downloadBytes(std::as_writable_bytes(std::span(std::ranges::data(values), std::ranges::size(values))),
+                      firstTexel);
     }
 
     struct Impl;

@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <initializer_list>
+#include <type_traits>
 
 namespace slant {
 

@@ -26,28 +26,33 @@ constexpr const char* kNoDevice =
     "no Vulkan device on this machine (Debian's mesa-vulkan-drivers has one that "
     "runs on the CPU); --device cpu does without";
 
-vk::raii::Instance makeInstance(const vk::raii::Context& context, ValidationLog* log) try {
-    return checked("to start", [&] {
+vk::raii::Instance createInstance(const vk::raii::Context& context, const vk::InstanceCreateInfo& info) {
+    try {
+        return {context, info};
+    } catch (const vk::IncompatibleDriverError&) { // how the loader says that it found no driver
+        throw Error(ErrorCode::device, kNoDevice);
+    }
+}
+
+/// With validation into `log` where there is one.
+vk::raii::Instance makeInstance(const vk::raii::Context& context, ValidationLog* log) {
+    return checked("starting", [&] {
         if (context.enumerateInstanceVersion() < kApiVersion)
             throw Error(ErrorCode::device, "the Vulkan loader is older than 1.2");
-        if (log && !hasLayer(context, ValidationLog::kLayer))
+        const vk::ApplicationInfo application("slant", 1, nullptr, 0, kApiVersion);
+        if (!log) return createInstance(context, vk::InstanceCreateInfo({}, &application));
+
+        if (!hasLayer(context, ValidationLog::kLayer))
             throw Error(ErrorCode::device, fmt::format("validation was asked for, but {} is not installed "
                                                        "(Debian: vulkan-validationlayers)",
                                                        ValidationLog::kLayer));
-        const vk::ApplicationInfo application("slant", 1, nullptr, 0, kApiVersion);
-        if (!log) return vk::raii::Instance(context, vk::InstanceCreateInfo({}, &application));
-
-        auto messengerInfo = log->messengerInfo();
-        const vk::ValidationFeatureEnableEXT synchronization =
-            vk::ValidationFeatureEnableEXT::eSynchronizationValidation;
+        const auto messengerInfo = log->messengerInfo();
+        const auto synchronization = vk::ValidationFeatureEnableEXT::eSynchronizationValidation;
         const vk::ValidationFeaturesEXT features(synchronization, {}, &messengerInfo);
         const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
         const char* layer = ValidationLog::kLayer;
-        return vk::raii::Instance(context,
-                                  vk::InstanceCreateInfo({}, &application, layer, extension, &features));
+        return createInstance(context, vk::InstanceCreateInfo({}, &application, layer, extension, &features));
     });
-} catch (const vk::IncompatibleDriverError&) {
-    throw Error(ErrorCode::device, kNoDevice); // how the loader says that it found no driver
 }
 
 std::string versionText(std::uint32_t version) {
@@ -177,9 +182,10 @@ Candidate choose(std::vector<Candidate> all, std::string_view name) {
 std::vector<DeviceInfo> listDevices() {
     const vk::raii::Context context = makeContext();
     const vk::raii::Instance instance = makeInstance(context, nullptr);
-    return checked("to list the devices", [&] {
+    return checked("listing the devices", [&] {
         std::vector<DeviceInfo> result;
         for (Candidate& candidate : candidates(instance)) result.push_back(std::move(candidate.info));
+        if (result.empty()) throw Error(ErrorCode::device, kNoDevice);
         return result;
     });
 }
@@ -192,7 +198,7 @@ bool validationFromEnvironment() {
 Device::Impl::Impl(const DeviceOptions& options)
     : validate(options.validate), forceStaging(options.forceStaging), context(makeContext()),
       instance(makeInstance(context, options.validate ? &validation : nullptr)) {
-    checked("to open the device", [&] {
+    checked("opening the device", [&] {
         if (validate) messenger.emplace(instance, validation.messengerInfo());
         Candidate chosen = choose(candidates(instance), options.name);
         physical = std::move(chosen.physical);
@@ -218,7 +224,7 @@ std::optional<std::uint32_t> Device::Impl::memoryType(std::uint32_t typeBits,
 
 StagingBuffer& Device::Impl::staging() {
     if (stagingBuffer) return *stagingBuffer;
-    return checked("to allocate the staging buffer", [&]() -> StagingBuffer& {
+    return checked("allocating the staging buffer", [&]() -> StagingBuffer& {
         using Usage = vk::BufferUsageFlagBits;
         using Property = vk::MemoryPropertyFlagBits;
         const vk::BufferCreateInfo bufferInfo({}, StagingBuffer::kBytes,

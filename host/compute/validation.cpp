@@ -1,5 +1,6 @@
 #include "compute/validation.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace slant {
@@ -20,8 +21,10 @@ std::vector<std::string> ValidationLog::take() {
 VkBool32 ValidationLog::receive(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                 const VkDebugUtilsMessengerCallbackDataEXT* data, void* log) {
     auto& self = *static_cast<ValidationLog*>(log);
+    std::string message = data->pMessage;
+    std::ranges::replace(message, '\n', ' '); // an error message is one line
     const std::lock_guard lock(self.mutex_);
-    self.messages_.emplace_back(data->pMessage);
+    self.messages_.push_back(std::move(message));
     return VK_FALSE;
 }
 

@@ -15,19 +15,19 @@
 namespace slant {
 
 /// Runs `action`; a Vulkan failure in it becomes Error(resources) when memory ran out, else Error(device).
-/// `doing` completes the sentence "Vulkan failed ...", e.g. "to allocate 64 bytes".
+/// `doing` says when, e.g. "allocating 64 bytes".
 template <typename Action>
 decltype(auto) checked(std::string_view doing, Action&& action) {
     try {
         return std::forward<Action>(action)();
     } catch (const vk::OutOfHostMemoryError&) {
-        throw Error(ErrorCode::resources, fmt::format("out of host memory {}", doing));
+        throw Error(ErrorCode::resources, fmt::format("out of host memory while {}", doing));
     } catch (const vk::OutOfDeviceMemoryError&) {
-        throw Error(ErrorCode::resources, fmt::format("out of device memory {}", doing));
+        throw Error(ErrorCode::resources, fmt::format("out of device memory while {}", doing));
     } catch (const vk::DeviceLostError&) {
-        throw Error(ErrorCode::device, fmt::format("the device was lost {}", doing));
+        throw Error(ErrorCode::device, fmt::format("the device was lost while {}", doing));
     } catch (const vk::SystemError& error) {
-        throw Error(ErrorCode::device, fmt::format("Vulkan failed {}: {}", doing, error.what()));
+        throw Error(ErrorCode::device, fmt::format("Vulkan failed while {}: {}", doing, error.what()));
     }
 }
 

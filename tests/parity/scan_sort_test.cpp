@@ -1,7 +1,7 @@
 // Prefix sum and radix sort: the device against the CPU, and both against the standard library.
 #include "base/sort.h"
 #include "compute/radix_sort.h"
-#include "vulkan_fixture.h"
+#include "support/vulkan_fixture.h"
 
 #include <algorithm>
 #include <functional>
@@ -25,15 +25,15 @@ Words randomWords(std::size_t count, std::uint32_t seed) {
 
 Words download(const Buffer& buffer, std::size_t count) {
     Words words(count);
-    buffer.download(std::span(words));
+    buffer.download(words);
     return words;
 }
 
-class ScanTest : public VulkanTest {
+class ScanTest : public test::VulkanTest {
 protected:
     static Words scanOnDevice(const Words& items) {
         Buffer buffer(device(), TexelFormat::r32ui, items.size());
-        buffer.upload(std::span(items));
+        buffer.upload(items);
         const Scan scan(device(), items.size());
         CommandList commands(device());
         scan.record(commands, buffer, items.size());
@@ -57,7 +57,7 @@ TEST_F(ScanTest, equalsTheStandardLibraryAtAnySize) {
 TEST_F(ScanTest, leavesWhatLiesBehindTheCount) {
     const Words items(1000, 3);
     Buffer buffer(device(), TexelFormat::r32ui, items.size());
-    buffer.upload(std::span(items));
+    buffer.upload(items);
     const Scan scan(device(), 1000);
     CommandList commands(device());
     scan.record(commands, buffer, 500);
@@ -99,14 +99,14 @@ PairWords sortedOnCpu(PairWords pairs, int keyBits) {
     return pairs;
 }
 
-class SortTest : public VulkanTest {
+class SortTest : public test::VulkanTest {
 protected:
     static PairWords sortedOnDevice(const PairWords& pairs, int keyBits) {
         const std::size_t count = pairs.keys.size();
         PairBuffers buffers(device(), count);
         const PairBuffers scratch(device(), count);
-        buffers.keys.upload(std::span(pairs.keys));
-        buffers.values.upload(std::span(pairs.values));
+        buffers.keys.upload(pairs.keys);
+        buffers.values.upload(pairs.values);
         const RadixSort sort(device(), count);
         CommandList commands(device());
         const PairBuffers& sorted = sort.record(commands, buffers, scratch, count, keyBits);

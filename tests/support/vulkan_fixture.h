@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <gtest/gtest.h>
 
-namespace slant {
+namespace slant::test {
 
 class VulkanTest : public testing::Test {
 protected:
@@ -36,4 +36,4 @@ private:
     inline static std::unique_ptr<Device> device_;
 };
 
-} // namespace slant
+} // namespace slant::test
