@@ -1,0 +1,195 @@
+#include "trace/sample_pass.h"
+
+#include "base/parallel.h"
+#include "unit/trace_scenes.h"
+
+#include <atomic>
+#include <cstring>
+#include <gtest/gtest.h>
+
+namespace slant {
+namespace {
+
+using testing::ballMesh;
+using testing::emptyScene;
+using testing::meshShape;
+using testing::sphereShape;
+
+/// A ball in front of a wall, both out of focus.
+Scene ballScene(int width, int height) {
+    Scene scene = emptyScene(width, height);
+    scene.camera.lensRadius = 0.1f;
+    scene.camera.focalDistance = 6;
+    scene.shapes.push_back(sphereShape(0.6f, glm::translate(glm::dmat4(1), glm::dvec3(0.2, 0.1, 3))));
+    scene.shapes.push_back(meshShape(scene, ballMesh(16, Mesh::Kind::triangles),
+                                     glm::translate(glm::dmat4(1), glm::dvec3(-1, 0.5, 5))));
+    Mesh wall;
+    wall.kind = Mesh::Kind::bilinearPatches;
+    wall.positions = {{-9, -9, 12}, {9, -9, 12}, {-9, 9, 12}, {9, 9, 12}};
+    wall.indices = {0, 1, 2, 3};
+    scene.shapes.push_back(meshShape(scene, wall));
+    return scene;
+}
+
+struct RecordingMonitor final : Monitor {
+    std::atomic<std::uint64_t> items{0};
+    std::uint64_t total = 0;
+    std::vector<std::string> warnings;
+    void beginStage(std::string_view, std::uint64_t count, std::string_view) override { total += count; }
+    void advance(std::uint64_t count) override { items += count; }
+    void endStage() override {}
+    void warn(std::string_view message) override { warnings.emplace_back(message); }
+};
+
+template <typename T>
+bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+std::vector<LightFieldSample> trace(const Tracer& tracer, Rect pixels, int first, int count, int spp) {
+    std::vector<LightFieldSample> samples(pixels.area() * std::size_t(count));
+    SilentMonitor monitor;
+    tracer.trace(pixels, first, count, spp, 11, samples, {}, monitor);
+    return samples;
+}
+
+TEST(Tracer, SamplesLieInTheirPixelsAndOnTheirTrajectories) {
+    Scene scene = ballScene(37, 23);
+    SilentMonitor monitor;
+    Tracer tracer(scene, monitor);
+    Rect pixels{-3, -2, 41, 25};
+    std::vector<LightFieldSample> samples = trace(tracer, pixels, 0, 5, 5);
+    SlopeModel slope = tracer.camera().slopeModel();
+    int near = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const LightFieldSample& s = samples[i];
+        std::size_t pixel = i / 5;
+        EXPECT_EQ(std::floor(s.x), pixels.x0 + int(pixel % 44));
+        EXPECT_EQ(std::floor(s.y), pixels.y0 + int(pixel / 44));
+        EXPECT_LE(s.u * s.u + s.v * s.v, 1.000001f);
+        EXPECT_TRUE(s.t >= 0 && s.t < 1);
+        EXPECT_EQ(s.alpha, s.w < INFINITY ? 1.f : 0.f);
+        EXPECT_EQ(s.slope, slope(s.w));
+        EXPECT_TRUE(std::isfinite(s.r + s.g + s.b));
+        if (s.w < 3) ++near;
+        // The wall is flat.
+        EXPECT_TRUE(s.w < 6 || s.alpha == 0 || std::abs(s.w - 12) < 1e-4f) << s.w;
+    }
+    EXPECT_GT(near, 100);
+}
+
+TEST(Tracer, MissesLieAtInfinity) {
+    Scene scene = emptyScene(8, 8);
+    scene.camera.lensRadius = 0.1f;
+    scene.camera.focalDistance = 2;
+    SilentMonitor monitor;
+    Tracer tracer(scene, monitor);
+    for (const LightFieldSample& s : trace(tracer, {0, 0, 8, 8}, 0, 2, 2)) {
+        EXPECT_EQ(s.w, INFINITY);
+        EXPECT_EQ(s.alpha, 0);
+        EXPECT_EQ(s.slope, tracer.camera().slopeModel().c2);
+    }
+}
+
+TEST(Tracer, ASampleDependsOnItsPixelAndIndexAlone) {
+    Scene scene = ballScene(37, 23);
+    SilentMonitor monitor;
+    Tracer tracer(scene, monitor);
+    Rect whole{-5, -3, 40, 26}, part{3, 2, 22, 19};
+    std::vector<LightFieldSample> all = trace(tracer, whole, 0, 6, 6), some = trace(tracer, part, 2, 3, 6);
+    for (int y = part.y0; y < part.y1; ++y)
+        for (int x = part.x0; x < part.x1; ++x)
+            for (int s = 0; s < 3; ++s) {
+                std::size_t i = std::size_t(((y - whole.y0) * whole.width() + x - whole.x0) * 6 + 2 + s);
+                std::size_t j = std::size_t(((y - part.y0) * part.width() + x - part.x0) * 3 + s);
+                EXPECT_EQ(std::memcmp(&all[i], &some[j], sizeof(LightFieldSample)), 0) << x << " " << y;
+            }
+    ThreadLimit one(1);
+    EXPECT_TRUE(sameBits(all, trace(tracer, whole, 0, 6, 6)));
+}
+
+TEST(Tracer, RefusesBuffersThatDoNotFit) {
+    Scene scene = ballScene(8, 8);
+    SilentMonitor monitor;
+    Tracer tracer(scene, monitor);
+    std::vector<LightFieldSample> samples(64 * 4);
+    std::vector<AuxiliarySample> auxiliary(3);
+    Rect pixels{0, 0, 8, 8};
+    EXPECT_THROW(tracer.trace(pixels, 0, 3, 4, 0, samples, {}, monitor), Error);
+    EXPECT_THROW(tracer.trace(pixels, 1, 4, 4, 0, samples, {}, monitor), Error);
+    EXPECT_THROW(tracer.trace(pixels, 0, 4, 4, 0, samples, auxiliary, monitor), Error);
+    EXPECT_NO_THROW(tracer.trace(pixels, 0, 4, 4, 0, samples, {}, monitor));
+    EXPECT_NO_THROW(tracer.trace({4, 4, 4, 4}, 0, 4, 4, 0, {}, {}, monitor));
+}
+
+TEST(SamplePass, OverscanReachesAsFarAsTheBlur) {
+    Scene scene = ballScene(64, 48);
+    scene.camera.lensRadius = 1;
+    RecordingMonitor monitor;
+    Tracer tracer(scene, monitor);
+    SampleOptions options;
+    options.samplesPerPixel = 4;
+    options.auxiliary = true;
+    LightField field = traceLightField(tracer, scene, options, monitor);
+    EXPECT_EQ(field.frame, scene.film.crop);
+    EXPECT_EQ(field.samples.size(), field.bounds.area() * 4);
+    EXPECT_EQ(field.auxiliary.size(), field.samples.size());
+    EXPECT_EQ(monitor.items, field.samples.size());
+    EXPECT_EQ(monitor.total, field.samples.size());
+    EXPECT_TRUE(monitor.warnings.empty());
+    // The wall fills most of the border. A trajectory there reaches once its slope beyond the frame at least,
+    // and twice that when it was seen from the far side of the lens; nothing is more blurred than the ball.
+    // Then 2 / sqrt(4) + 1.
+    int least = int(field.slopeModel(12)) + 2, widest = int(std::ceil(-2 * field.slopeModel(2.4f))) + 2;
+    for (int side : {field.frame.x0 - field.bounds.x0, field.frame.y0 - field.bounds.y0,
+                     field.bounds.x1 - field.frame.x1, field.bounds.y1 - field.frame.y1}) {
+        EXPECT_GE(side, least);
+        EXPECT_LE(side, widest);
+    }
+    EXPECT_TRUE(sameBits(field.samples, [&] {
+        std::vector<LightFieldSample> samples(field.samples.size());
+        tracer.trace(field.bounds, 0, 4, 4, options.seed, samples, {}, monitor);
+        return samples;
+    }()));
+}
+
+TEST(SamplePass, OverscanIsLimitedWithAWarning) {
+    Scene scene = ballScene(32, 24);
+    scene.camera.lensRadius = 20;
+    RecordingMonitor monitor;
+    Tracer tracer(scene, monitor);
+    LightField field = traceLightField(tracer, scene, {1}, monitor);
+    EXPECT_EQ(field.bounds, field.frame.expand(16));
+    ASSERT_EQ(monitor.warnings.size(), 1u);
+    EXPECT_NE(monitor.warnings[0].find("16"), std::string::npos);
+}
+
+TEST(SamplePass, BoundsFollowTheFurthestTrajectoryOnEachSide) {
+    LightFieldSample s{};
+    s.x = 2.5f, s.y = 5.5f, s.u = 0.5f, s.slope = -3;
+    int wanted = 0;
+    // The trajectory's disc: centre (4, 5.5), radius 3.
+    Rect bounds = boundsWithOverscan({2, 3, 10, 8}, {{s}}, 16, 100, wanted);
+    EXPECT_EQ(bounds, (Rect{2 - 3, 3 - 3, 10 + 2, 8 + 3}));
+    EXPECT_EQ(wanted, 3);
+    s.slope = NAN;
+    EXPECT_EQ(boundsWithOverscan({2, 3, 10, 8}, {{s}}, 16, 100, wanted), (Rect{2, 3, 10, 8}.expand(2)));
+}
+
+TEST(SamplePass, RefusesWhatDoesNotFitTheBudget) {
+    Scene scene = ballScene(64, 48);
+    RecordingMonitor monitor;
+    Tracer tracer(scene, monitor);
+    SampleOptions options;
+    options.memoryBytes = 64 * 48 * 8 * sizeof(LightFieldSample) - 1;
+    try {
+        traceLightField(tracer, scene, options, monitor);
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_EQ(e.code(), ErrorCode::resources);
+    }
+    EXPECT_EQ(monitor.items, 0u);
+}
+
+} // namespace
+} // namespace slant
