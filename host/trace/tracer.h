@@ -6,6 +6,7 @@
 #include "lightfield/lightfield.h"
 #include "scene/scene.h"
 #include "trace/geometry.h"
+#include "trace/path.h"
 
 #include <span>
 
@@ -32,6 +33,7 @@ private:
     const Scene& scene_;
     ThinLens camera_;
     Geometry geometry_;
+    Shading shading_;
 };
 
 } // namespace slant

@@ -108,6 +108,49 @@ TEST(Tracer, ASampleDependsOnItsPixelAndIndexAlone) {
     EXPECT_TRUE(sameBits(all, trace(tracer, whole, 0, 6, 6)));
 }
 
+TEST(Tracer, AConvexBodyUnderAConstantSkyShowsItsReflectance) {
+    Scene scene = emptyScene(16, 16);
+    scene.shapes.push_back(sphereShape(50, glm::translate(glm::dmat4(1), glm::dvec3(0, 0, 60))));
+    scene.lights[0].emission = {1, 2, 4};
+    scene.maxDepth = 3;
+    SilentMonitor monitor;
+    auto mean = [&] {
+        Tracer tracer(scene, monitor);
+        glm::dvec3 sum(0);
+        for (const LightFieldSample& s : trace(tracer, {0, 0, 16, 16}, 0, 64, 64))
+            sum += glm::dvec3(s.r, s.g, s.b);
+        return sum / (16.0 * 16.0 * 64.0);
+    };
+    glm::dvec3 bright = mean();
+    EXPECT_NEAR(bright.r, 0.5, 0.01);
+    EXPECT_NEAR(bright.g, 1, 0.02);
+    EXPECT_NEAR(bright.b, 2, 0.04);
+    scene.film.imagingRatio = 3;
+    EXPECT_NEAR(mean().r, 3 * bright.r, 1e-3);
+    scene.film.maxComponentValue = 0.75f;
+    glm::dvec3 clamped = mean();
+    EXPECT_NEAR(clamped.b, 0.75, 0.01);
+    EXPECT_NEAR(clamped.r, 0.75 / 4, 0.003) << "samples keep their hue";
+    scene.maxDepth = 0;
+    EXPECT_EQ(mean(), glm::dvec3(0));
+}
+
+TEST(Tracer, RecordsAlbedoAndNormalTowardsTheCamera) {
+    Scene scene = ballScene(24, 16);
+    SilentMonitor monitor;
+    Tracer tracer(scene, monitor);
+    Rect pixels{0, 0, 24, 16};
+    std::vector<LightFieldSample> samples(pixels.area() * 2);
+    std::vector<AuxiliarySample> auxiliary(samples.size());
+    tracer.trace(pixels, 0, 2, 2, 1, samples, auxiliary, monitor);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        bool hit = samples[i].alpha > 0;
+        EXPECT_NEAR(glm::length(auxiliary[i].normal), hit ? 1 : 0, 1e-5);
+        EXPECT_NEAR(auxiliary[i].albedo.g, hit ? 0.5 : 0, 1e-5);
+        EXPECT_LT(auxiliary[i].normal.z, 0.3f);
+    }
+}
+
 TEST(Tracer, RefusesBuffersThatDoNotFit) {
     Scene scene = ballScene(8, 8);
     SilentMonitor monitor;

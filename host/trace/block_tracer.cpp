@@ -1,0 +1,108 @@
+#include "trace/block_tracer.h"
+
+#include "camera/disc.h"
+
+#include <cmath>
+
+namespace slant {
+namespace {
+
+/// x in [pixel, pixel + 1), also after rounding.
+float rasterPosition(int pixel, float offset) {
+    return std::min(float(pixel) + offset, std::nextafter(float(pixel + 1), -1e30f));
+}
+
+/// pbrt's sensor and film: brightness, and samples no brighter than the film allows.
+glm::vec3 exposed(const Film& film, glm::vec3 radiance) {
+    radiance *= film.imagingRatio;
+    float brightest = std::max({radiance.r, radiance.g, radiance.b});
+    if (film.maxComponentValue > 0 && brightest > film.maxComponentValue)
+        radiance *= film.maxComponentValue / brightest;
+    return radiance;
+}
+
+} // namespace
+
+BlockTracer::BlockTracer(const TraceJob& job, int x0, int y0) : job_(job), x0_(x0), y0_(y0) {
+    for (int lane = 0; lane < kLanes; ++lane)
+        places_[std::size_t(lane)] = job.pattern.pixel(x(lane), y(lane));
+}
+
+void BlockTracer::trace(int sample) {
+    generate(sample);
+    job_.geometry.intersect(rays_, hits_);
+    shade(sample);
+    for (int lane = 0; lane < kLanes; ++lane)
+        if (job_.pixels.contains(x(lane), y(lane))) {
+            finish(lane);
+            store(lane, sample);
+        }
+}
+
+void BlockTracer::generate(int sample) {
+    for (int lane = 0; lane < kLanes; ++lane) {
+        PatternPoint point = job_.pattern.point(places_[std::size_t(lane)], sample);
+        LightFieldSample& s = samples_[std::size_t(lane)];
+        s.x = rasterPosition(x(lane), point.x);
+        s.y = rasterPosition(y(lane), point.y);
+        glm::vec2 lens = concentricDisc(point.a, point.b);
+        s.u = lens.x;
+        s.v = lens.y;
+        s.t = point.t;
+        CameraRay ray = job_.camera.ray({s.x, s.y}, lens);
+        rays_[std::size_t(lane)] = {ray.origin, ray.direction, std::numeric_limits<float>::infinity(),
+                                    point.t};
+    }
+}
+
+/// The first vertex of each path, with its shadow ray.
+void BlockTracer::shade(int sample) {
+    std::array<Ray, kLanes> shadowRays;
+    std::array<std::uint8_t, kLanes> occluded;
+    for (int i = 0; i < kLanes; ++i) {
+        std::size_t lane = std::size_t(i);
+        samplers_[lane] = job_.pattern.shading(places_[lane], sample);
+        paths_[lane] = startPath(rays_[lane]);
+        goesOn_[lane] = scatter(job_.shading, hits_[lane], job_.scene.maxDepth, samplers_[lane], paths_[lane],
+                                shadows_[lane], job_.auxiliary.empty() ? nullptr : &auxiliary_[lane]);
+        shadowRays[lane] = shadows_[lane].ray;
+        if (!shadows_[lane].needed()) shadowRays[lane].tMax = 0;
+    }
+    job_.geometry.occluded(shadowRays, occluded);
+    for (std::size_t lane = 0; lane < kLanes; ++lane)
+        if (shadows_[lane].needed() && !occluded[lane]) paths_[lane].radiance += shadows_[lane].contribution;
+}
+
+/// The rest of a path.
+void BlockTracer::finish(int i) {
+    std::size_t lane = std::size_t(i);
+    ShadowRay shadow;
+    for (bool on = goesOn_[lane]; on;) {
+        SurfaceHit hit;
+        job_.geometry.intersect(paths_[lane].ray, hit);
+        on = scatter(job_.shading, hit, job_.scene.maxDepth, samplers_[lane], paths_[lane], shadow);
+        if (shadow.needed() && !job_.geometry.occluded(shadow.ray))
+            paths_[lane].radiance += shadow.contribution;
+    }
+}
+
+void BlockTracer::store(int i, int sample) {
+    std::size_t lane = std::size_t(i);
+    const SurfaceHit& hit = hits_[lane];
+    LightFieldSample s = samples_[lane];
+    s.w = hit.t;
+    s.slope = job_.camera.slopeModel()(hit.t);
+    s.alpha = hit.hit() ? 1.f : 0.f;
+    glm::vec3 radiance = exposed(job_.scene.film, paths_[lane].radiance);
+    s.r = radiance.r;
+    s.g = radiance.g;
+    s.b = radiance.b;
+    s.unused = 0;
+    std::size_t pixel = std::size_t(y(i) - job_.pixels.y0) * std::size_t(job_.pixels.width()) +
+                        std::size_t(x(i) - job_.pixels.x0);
+    std::size_t index = pixel * std::size_t(job_.count) + std::size_t(sample - job_.firstSample);
+    job_.out[index] = s;
+    if (!job_.auxiliary.empty()) job_.auxiliary[index] = auxiliary_[lane];
+}
+
+} // namespace slant

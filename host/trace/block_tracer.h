@@ -1,0 +1,61 @@
+// Traces one small block of pixels, sample by sample: what Tracer does in parallel.
+#pragma once
+#include "camera/thin_lens.h"
+#include "trace/geometry.h"
+#include "trace/path.h"
+#include "trace/pattern.h"
+
+#include <array>
+#include <span>
+
+namespace slant {
+
+/// Pixels of a block are traced together, all with the same sample index. Blocks lie on a fixed grid of the
+/// raster and are traced whole, so that the company a ray keeps does not depend on the rectangle asked for.
+constexpr int kBlockSize = 4;
+
+/// What one call of Tracer::trace works on (tracer.h).
+struct TraceJob {
+    const Scene& scene;
+    const ThinLens& camera;
+    const Geometry& geometry;
+    const Shading& shading;
+    const Pattern& pattern;
+    Rect pixels;
+    int firstSample, count;
+    std::span<LightFieldSample> out;
+    std::span<AuxiliarySample> auxiliary;
+};
+
+class BlockTracer {
+public:
+    /// The block of pixels from (x0, y0), multiples of kBlockSize.
+    BlockTracer(const TraceJob& job, int x0, int y0);
+
+    /// One sample of each pixel.
+    void trace(int sample);
+
+private:
+    static constexpr int kLanes = kBlockSize * kBlockSize;
+
+    int x(int lane) const { return x0_ + lane % kBlockSize; }
+    int y(int lane) const { return y0_ + lane / kBlockSize; }
+    void generate(int sample);
+    void shade(int sample);
+    void finish(int lane);
+    void store(int lane, int sample);
+
+    const TraceJob& job_;
+    int x0_, y0_;
+    std::array<PatternPixel, kLanes> places_;
+    std::array<LightFieldSample, kLanes> samples_;
+    std::array<AuxiliarySample, kLanes> auxiliary_;
+    std::array<Ray, kLanes> rays_;
+    std::array<SurfaceHit, kLanes> hits_;
+    std::array<ShadingSampler, kLanes> samplers_;
+    std::array<PathState, kLanes> paths_;
+    std::array<ShadowRay, kLanes> shadows_;
+    std::array<bool, kLanes> goesOn_;
+};
+
+} // namespace slant
