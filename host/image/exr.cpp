@@ -18,6 +18,7 @@
 #include <OpenEXR/ImfTestFile.h>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <half.h>
 #include <tuple>
