@@ -90,8 +90,9 @@ private:
     std::uint32_t marks_ = 0;
 };
 
-void requireFit(const Pass& pass, CommandList::Bindings buffers, std::size_t pushBytes) {
+void requireFit(const Pass& pass, CommandList::Bindings buffers, std::size_t pushBytes, Grid grid) {
     const ShaderInterface& interface = pass.interface();
+    const DeviceLimits& limits = pass.impl().limits;
     const auto fail = [&](const std::string& why) {
         throw Error(ErrorCode::usage, fmt::format("dispatch of '{}': {}", pass.name(), why));
     };
@@ -99,6 +100,9 @@ void requireFit(const Pass& pass, CommandList::Bindings buffers, std::size_t pus
         fail(fmt::format("{} buffers, the shader has {}", buffers.size(), interface.bindings.size()));
     if (pushBytes != interface.pushBytes)
         fail(fmt::format("{} bytes of push constants, the shader has {}", pushBytes, interface.pushBytes));
+    if (grid.x > limits.workgroupsX || grid.y > limits.workgroupsY)
+        fail(fmt::format("{} x {} workgroups, the device takes {} x {}", grid.x, grid.y, limits.workgroupsX,
+                         limits.workgroupsY));
     auto buffer = buffers.begin();
     for (const ShaderBinding& binding : interface.bindings) {
         const TexelFormat format = (buffer++)->get().format();
@@ -184,7 +188,7 @@ CommandList::~CommandList() {
 
 void CommandList::dispatchBytes(const Pass& pass, Bindings buffers, std::span<const std::byte> push,
                                 Grid grid) {
-    requireFit(pass, buffers, push.size());
+    requireFit(pass, buffers, push.size(), grid);
     if (grid.x == 0 || grid.y == 0) return;
     checked("recording a dispatch", [&] {
         impl_->begin();

@@ -31,7 +31,7 @@ public:
     using Bindings = std::initializer_list<std::reference_wrapper<const Buffer>>;
 
     /// Throws Error(usage) where number or format of the buffers or the size of `push` is not what the shader
-    /// declares. An empty grid records nothing.
+    /// declares, or the grid is over the device's limits. An empty grid records nothing.
     template <typename Push>
     void dispatch(const Pass& pass, Bindings buffers, const Push& push, Grid grid) {
         static_assert(std::is_trivially_copyable_v<Push>);

@@ -159,6 +159,8 @@ std::string lowerCase(std::string_view text) {
 
 /// The first candidate that `name` fits; throws Error(device) if there is none or it cannot be used.
 Candidate choose(std::vector<Candidate> all, std::string_view name) {
+    if (name.empty())
+        throw Error(ErrorCode::usage, "empty device name: auto, cpu or part of a name is wanted");
     if (all.empty()) throw Error(ErrorCode::device, kNoDevice);
     std::string listing;
     for (Candidate& candidate : all) {

@@ -188,6 +188,11 @@ TEST_F(ComputeTest, refusesDispatchesThatDoNotFitTheShader) {
         commands.dispatch(reduce, {words, floats}, push, {1, 1});
     });
     expectError(ErrorCode::usage, "4 bytes", [&] { commands.dispatch(reduce, {words, words}, 1u, {1, 1}); });
+    const std::uint32_t over = device().limits().workgroupsX + 1;
+    if (over > 0)
+        expectError(ErrorCode::usage, "workgroups", [&] {
+            commands.dispatch(reduce, {words, words}, push, {over, 1});
+        });
     expectError(ErrorCode::usage, "no shader 'banana'", [&] { Pass(device(), "banana"); });
     expectError(ErrorCode::usage, "not submitted", [&] { commands.wait(); });
     commands.submit();
