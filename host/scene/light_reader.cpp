@@ -4,8 +4,6 @@
 #include "scene/spectra.h"
 #include "scene/spelling.h"
 
-#include <glm/gtc/constants.hpp>
-
 namespace slant {
 namespace {
 
@@ -28,7 +26,7 @@ void readPoint(Light& light, ParameterList& parameters) {
     light.kind = LightKind::point;
     light.emission = emission(parameters, "I");
     light.from = parameters.triple("from", "point3", {0, 0, 0});
-    if (const auto power = positive(parameters, "power")) light.scale *= *power / (4 * glm::pi<float>());
+    light.power = positive(parameters, "power");
 }
 
 void readDistant(Light& light, ParameterList& parameters) {
@@ -38,38 +36,15 @@ void readDistant(Light& light, ParameterList& parameters) {
     light.to = parameters.triple("to", "point3", {0, 0, 1});
     if (light.from == light.to)
         throw badInput(parameters.position(), "a distant light needs 'from' and 'to' apart");
-    if (const auto illuminance = positive(parameters, "illuminance")) light.scale *= *illuminance;
-}
-
-/// Direction of a point of the equal-area octahedral square. Clarberg: Fast Equal-Area Mapping of the
-/// (Hemi)Sphere using SIMD, Journal of Graphics Tools 13(3), 2008; cos(theta) alone is needed here.
-double octahedralCosTheta(double s, double t) {
-    const double u = 2 * s - 1, v = 2 * t - 1;
-    const double signedDistance = 1 - (std::abs(u) + std::abs(v));
-    const double r = 1 - std::abs(signedDistance);
-    return std::copysign(1 - r * r, signedDistance);
-}
-
-/// Irradiance (luminance-weighted) of the map's upper hemisphere (z up) on a horizontal patch.
-double upperIlluminance(const Image& image) {
-    double sum = 0;
-    for (int y = 0; y < image.height(); ++y)
-        for (int x = 0; x < image.width(); ++x) {
-            const double cosTheta = octahedralCosTheta((x + 0.5) / image.width(), (y + 0.5) / image.height());
-            if (cosTheta <= 0) continue;
-            sum += cosTheta * (0.2126729 * image.at(x, y, 0) + 0.7151522 * image.at(x, y, 1) +
-                               0.0721750 * image.at(x, y, 2));
-        }
-    return sum * 4 * glm::pi<double>() / (double(image.width()) * image.height());
+    light.illuminance = positive(parameters, "illuminance");
 }
 
 void readInfinite(Light& light, ParameterList& parameters, const Scene& scene, SceneFiles& files) {
     light.kind = LightKind::infinite;
-    const std::optional<float> illuminance = positive(parameters, "illuminance");
+    light.illuminance = positive(parameters, "illuminance");
     const std::optional<std::string> filename = parameters.text("filename");
     if (!filename) {
         light.emission = emission(parameters, "L");
-        if (illuminance) light.scale *= *illuminance / glm::pi<float>();
         return;
     }
     const Position where = parameters.positionOf("filename");
@@ -85,11 +60,6 @@ void readInfinite(Light& light, ParameterList& parameters, const Scene& scene, S
             *filename, image.width(), image.height());
     if (image.channelCount() != 3)
         throw badInput(where, "the image of an infinite light must have channels R, G and B");
-    if (!illuminance) return;
-    const double present = upperIlluminance(image);
-    if (!(present > 0))
-        throw badInput(where, "the upper half of this image is black: no illuminance to scale");
-    light.scale *= float(*illuminance / present);
 }
 
 } // namespace

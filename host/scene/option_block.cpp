@@ -20,14 +20,10 @@ constexpr std::string_view kSamplers[] = {"halton",     "independent", "paddedso
                                           "stratified", "zsobol",      "pmj02bn"};
 constexpr std::string_view kIntegrators[] = {"path", "volpath"};
 
-bool known(const std::string& kind, std::span<const std::string_view> kinds) {
-    return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
-}
-
 /// Throws unless `kind` is one of `kinds`.
 void checkKind(std::string_view family, const std::string& kind, std::span<const std::string_view> kinds,
                const ParameterList& parameters) {
-    if (!known(kind, kinds))
+    if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
         throw badInput(parameters.position(), "{} \"{}\" is not supported{}", family, printable(kind),
                        didYouMean(kind, kinds));
 }
@@ -110,7 +106,7 @@ PixelFilter readFilter(const std::string& kind, ParameterList& parameters) {
     return filter;
 }
 
-PerspectiveCamera readCamera(const std::string& kind, ParameterList& parameters, Monitor& monitor) {
+PerspectiveCamera readCamera(const std::string& kind, ParameterList& parameters) {
     checkKind("camera", kind, std::array<std::string_view, 1>{"perspective"}, parameters);
     PerspectiveCamera camera;
     camera.fovDegrees = parameters.number("fov", 90, {0, 179.99, true});
@@ -121,7 +117,6 @@ PerspectiveCamera readCamera(const std::string& kind, ParameterList& parameters,
     if (camera.shutterClose <= camera.shutterOpen)
         throw badInput(parameters.position(),
                        "the shutter never opens: 'shutterclose' must be after 'shutteropen'");
-    (void)monitor;
     return camera;
 }
 
@@ -182,7 +177,7 @@ void OptionBlock::resolve(Scene& scene, Monitor& monitor) {
     Entity& filter = entity("PixelFilter", "gaussian");
     Entity& sampler = entity("Sampler", "zsobol");
     Entity& integrator = entity("Integrator", "volpath");
-    scene.camera = readCamera(camera.kind, camera.parameters, monitor);
+    scene.camera = readCamera(camera.kind, camera.parameters);
     scene.camera.worldFromCamera = worldFromCamera_;
     scene.film =
         readFilm(film.kind, film.parameters, scene.camera.shutterClose - scene.camera.shutterOpen, monitor);

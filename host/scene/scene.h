@@ -141,8 +141,9 @@ struct ObjectInstance {
 
 // ---------------------------------------------------------------- lights
 
-/// AreaLightSource "diffuse". Emitted radiance is `radiance` * `scale`, unless `power` (W) is set: then it is
-/// scaled so that the whole shape emits that power, as pbrt does.
+/// AreaLightSource "diffuse". Emitted radiance is `radiance` * `scale`; if `power` (W) is set, also divided by
+/// the power that radiance 1 gives and times `power`. pbrt does so for each sphere, disk, triangle and patch on
+/// its own: a mesh of n faces emits n times `power`.
 struct AreaLight {
     glm::vec3 radiance{1};
     float scale = 1;

@@ -13,10 +13,17 @@ struct NamedColour {
     glm::vec3 rgb;
 };
 
-/// Metals of pbrt's table.
+/// pbrt's metals. Fitted to its spectra of eta and k: the Fresnel reflectance of each channel follows that of
+/// the spectrum under D65 (as linear Rec.709) over all angles, within 0.005. Red of gold lies outside the
+/// colour space (1.02 at normal incidence) and becomes 1. CuZn: by hand, brass of (0.89, 0.79, 0.43).
 constexpr NamedColour kMetals[] = {
-    {"metal-Cu-eta", {0.200438f, 0.924033f, 1.102212f}},
-    {"metal-Cu-k", {3.912949f, 2.452848f, 2.142188f}},
+    {"metal-Ag-eta", {0.1288f, 0.1256f, 0.1513f}},   {"metal-Ag-k", {4.0826f, 3.3620f, 2.4132f}},
+    {"metal-Al-eta", {1.4195f, 0.9324f, 0.5917f}},   {"metal-Al-k", {7.7216f, 6.6140f, 5.3659f}},
+    {"metal-Au-eta", {0.0100f, 0.4023f, 1.5747f}},   {"metal-Au-k", {3.2000f, 2.3410f, 1.7205f}},
+    {"metal-Cu-eta", {0.1770f, 0.9731f, 1.2124f}},   {"metal-Cu-k", {3.6719f, 2.6233f, 2.3670f}},
+    {"metal-CuZn-eta", {0.4440f, 0.5270f, 1.0940f}}, {"metal-CuZn-k", {3.6950f, 2.7650f, 1.8290f}},
+    {"metal-MgO-eta", {1.7338f, 1.7409f, 1.7536f}},  {"metal-MgO-k", {0, 0, 0}},
+    {"metal-TiO2-eta", {2.8624f, 2.9531f, 3.1859f}}, {"metal-TiO2-k", {0, 0, 0}},
 };
 
 struct NamedGlass {
