@@ -49,7 +49,8 @@ inline LightFieldSample look(const std::vector<Layer>& layers, glm::vec2 xy, glm
 
 /// spp samples in every pixel of `bounds`: a sqrt(spp)-ish grid in the pixel, jittered, and a shuffled one on
 /// the lens.
-inline LightField sample(const std::vector<Layer>& layers, Rect frame, int overscan, int spp, std::uint32_t seed) {
+inline LightField sample(const std::vector<Layer>& layers, Rect frame, int overscan, int spp,
+                         std::uint32_t seed) {
     LightField field;
     field.frame = frame;
     field.bounds = frame.expand(overscan);
@@ -61,11 +62,14 @@ inline LightField sample(const std::vector<Layer>& layers, Rect frame, int overs
             const std::uint32_t shift = random.bits();
             for (int i = 0; i < spp; ++i) {
                 const int rows = (spp + columns - 1) / columns;
-                const auto stratum = [&](int k, int count) { return (float(k) + random.uniform()) / float(count); };
+                const auto stratum = [&](int k, int count) {
+                    return (float(k) + random.uniform()) / float(count);
+                };
                 const float fx = stratum(i % columns, columns), fy = stratum(i / columns, rows);
                 const int j = int((std::uint32_t(i) + shift) % std::uint32_t(spp));
                 const float r = std::sqrt(stratum(j, spp));
-                const float phi = 6.2831853f * std::fmod(float(j) * 0.618034f + random.uniform() / float(spp), 1.f);
+                const float phi =
+                    6.2831853f * std::fmod(float(j) * 0.618034f + random.uniform() / float(spp), 1.f);
                 field.samples.push_back(look(layers, {float(x) + fx, float(y) + fy},
                                              {r * std::cos(phi), r * std::sin(phi)}, random.uniform()));
             }
@@ -80,13 +84,12 @@ inline std::vector<Layer> discsOverChecks() {
         return glm::dot(q, q) < radius * radius;
     };
     return {
-        {-12, [=](glm::vec2 p) { return disc(p, 60, 13); }, [](glm::vec2 p) {
-             return glm::vec3(0.9f, 0.3f + 0.2f * std::sin(p.x * 0.5f), 0.1f);
-         }},
-        {0.3f, [=](glm::vec2 p) { return disc(p + 22.f, 37, 10); }, [](glm::vec2 p) {
-             return glm::vec3(0.2f, 0.5f, 0.5f + 0.4f * std::sin(p.x) * std::sin(p.y));
-         }},
-        {9, [](glm::vec2) { return true; }, [](glm::vec2 p) {
+        {-12, [=](glm::vec2 p) { return disc(p, 60, 13); },
+         [](glm::vec2 p) { return glm::vec3(0.9f, 0.3f + 0.2f * std::sin(p.x * 0.5f), 0.1f); }},
+        {0.3f, [=](glm::vec2 p) { return disc(p + 22.f, 37, 10); },
+         [](glm::vec2 p) { return glm::vec3(0.2f, 0.5f, 0.5f + 0.4f * std::sin(p.x) * std::sin(p.y)); }},
+        {9, [](glm::vec2) { return true; },
+         [](glm::vec2 p) {
              const bool odd = (int(std::floor(p.x / 9)) + int(std::floor(p.y / 9))) & 1;
              return odd ? glm::vec3(0.8f) : glm::vec3(0.1f, 0.2f, 0.1f);
          }},

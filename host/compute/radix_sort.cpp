@@ -18,9 +18,16 @@ std::uint64_t chunksOf(std::uint64_t count) {
 } // namespace
 
 RadixSort::RadixSort(Device& device, std::uint64_t maxCount)
-    : count_(device, "radix_count"), scatter_(device, "radix_scatter"),
+    : device_(device), count_(device, "radix_count"), scatter_(device, "radix_scatter"),
       histogram_(device, TexelFormat::r32ui, chunksOf(maxCount) * kRadixDigits),
       scan_(device, histogram_.texels()) {}
+
+void RadixSort::reserve(std::uint64_t maxCount) {
+    const std::uint64_t words = chunksOf(maxCount) * kRadixDigits;
+    if (words <= histogram_.texels()) return;
+    histogram_ = Buffer(device_, TexelFormat::r32ui, words);
+    scan_.reserve(words);
+}
 
 const PairBuffers& RadixSort::record(CommandList& commands, const PairBuffers& pairs,
                                      const PairBuffers& scratch, std::uint64_t count, int keyBits) const {

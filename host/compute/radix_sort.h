@@ -20,6 +20,9 @@ class RadixSort {
 public:
     RadixSort(Device& device, std::uint64_t maxCount);
 
+    /// Makes room for sorts of `maxCount` pairs; nothing recorded may be pending.
+    void reserve(std::uint64_t maxCount);
+
     /// Records the sorting of the first `count` pairs by the lowest `keyBits` (0 to 32) bits of their keys,
     /// pairs of equal bits in the order in which they were. Works to and fro between the two, and returns
     /// that which holds the result; the other holds nothing of use. Throws Error(usage) for counts over
@@ -28,6 +31,7 @@ public:
                               std::uint64_t count, int keyBits) const;
 
 private:
+    Device& device_;
     Pass count_;
     Pass scatter_;
     Buffer histogram_;

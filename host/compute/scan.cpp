@@ -13,9 +13,16 @@ std::uint64_t chunksOf(std::uint64_t count) {
 } // namespace
 
 Scan::Scan(Device& device, std::uint64_t maxCount)
-    : reduce_(device, "scan_reduce"), apply_(device, "scan_apply"), maxCount_(maxCount) {
+    : device_(device), reduce_(device, "scan_reduce"), apply_(device, "scan_apply") {
+    reserve(maxCount);
+}
+
+void Scan::reserve(std::uint64_t maxCount) {
+    if (maxCount <= maxCount_) return;
+    maxCount_ = maxCount;
+    sums_.clear();
     for (std::uint64_t chunks = chunksOf(maxCount); chunks > 1; chunks = chunksOf(chunks))
-        sums_.emplace_back(device, TexelFormat::r32ui, chunks);
+        sums_.emplace_back(device_, TexelFormat::r32ui, chunks);
 }
 
 void Scan::record(CommandList& commands, const Buffer& items, std::uint64_t count) const {

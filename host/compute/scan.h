@@ -10,13 +10,17 @@ class Scan {
 public:
     Scan(Device& device, std::uint64_t maxCount);
 
+    /// Makes room for scans of `maxCount` items; nothing recorded may be pending.
+    void reserve(std::uint64_t maxCount);
+
     /// Throws Error(usage) if `count` is over `maxCount` or the buffer's size.
     void record(CommandList& commands, const Buffer& items, std::uint64_t count) const;
 
 private:
+    Device& device_;
     Pass reduce_;
     Pass apply_;
-    std::uint64_t maxCount_;
+    std::uint64_t maxCount_ = 0;
     std::vector<Buffer> sums_; ///< of chunks; of chunks of those; ... down to one chunk
 };
 

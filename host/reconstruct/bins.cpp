@@ -1,30 +1,49 @@
 #include "reconstruct/bins.h"
 
+#include "base/parallel.h"
+
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
 
 namespace slant {
 namespace {
 
-/// Where a sample is binned. As lib/grid.glsl.
-struct Place {
-    uint brickKey; ///< (bucket, row, column) of its brick in the dense table
-    uint cell;     ///< within the brick
-};
-
-Place placeOf(const GridLayout& grid, vec2 p, float slope) {
+/// Sort key of a sample: bucket, row and column of its brick, then its cell in the brick. As lib/grid.glsl.
+uint sortKey(const GridLayout& grid, vec2 p, float slope) {
     const ivec2 cells = grid.brickCount * grid.cellsPerBrick;
-    const ivec2 cell = glm::clamp(ivec2(glm::floor((p - grid.origin) * grid.invCell)), ivec2(0), cells - 1);
+    const vec2 place = glm::clamp(glm::floor((p - grid.origin) * grid.invCell), vec2(0), vec2(cells - 1));
+    const ivec2 cell = ivec2(place);
     const ivec2 brick = cell / grid.cellsPerBrick;
     const ivec2 inside = cell - brick * grid.cellsPerBrick;
-    const int bucket = glm::clamp(int((slope - grid.slopeMin) * grid.invBucket), 0, grid.bucketCount - 1);
-    return {uint((bucket * grid.brickCount.y + brick.y) * grid.brickCount.x + brick.x),
-            uint(inside.y * grid.cellsPerBrick + inside.x)};
+    const float steps = glm::floor((slope - grid.slopeMin) * grid.invBucket);
+    const int bucket = int(glm::clamp(steps, 0.f, float(grid.bucketCount - 1)));
+    const int key = (bucket * grid.brickCount.y + brick.y) * grid.brickCount.x + brick.x;
+    return (uint(key) * uint(grid.cellsPerBrick) + uint(inside.y)) * uint(grid.cellsPerBrick) +
+           uint(inside.x);
 }
 
-Brick brickAt(const GridLayout& grid, uint key) {
+/// (key, sample index) of every binned sample, ascending.
+std::vector<std::uint64_t> sortedSamples(const LightField& field, const Rect& region, float marginPx,
+                                         const GridLayout& grid) {
+    std::vector<std::uint64_t> order(field.samples.size());
+    parallelFor(0, order.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const LightFieldSample& s = field.samples[i];
+            const uint key =
+                reaches(s, region, marginPx) ? sortKey(grid, pinholePosition(s), s.slope) : kNotBinned;
+            order[i] = std::uint64_t(key) << 32 | i;
+        }
+    });
+    tbb::parallel_sort(order);
+    order.resize(grid.sampleCount);
+    return order;
+}
+
+Brick brickAt(const GridLayout& grid, uint key, float slope) {
     const int column = int(key) % grid.brickCount.x;
     const int row = int(key) / grid.brickCount.x % grid.brickCount.y;
-    return {column * grid.cellsPerBrick, row * grid.cellsPerBrick, 3.4e38f, -3.4e38f};
+    return {column * grid.cellsPerBrick, row * grid.cellsPerBrick, slope, slope};
 }
 
 } // namespace
@@ -32,47 +51,29 @@ Brick brickAt(const GridLayout& grid, uint key) {
 Bins binSamples(const LightField& field, const Rect& region, float marginPx) {
     Bins bins;
     bins.grid = chooseGrid(field, region, marginPx);
-    const GridLayout& grid = bins.grid;
-    const std::size_t tableSize = std::size_t(grid.brickCount.x) * grid.brickCount.y * grid.bucketCount;
+    const uint cellsPerBrick = uint(bins.grid.cellsPerBrick) * uint(bins.grid.cellsPerBrick);
+    const std::vector<std::uint64_t> order = sortedSamples(field, region, marginPx, bins.grid);
 
-    std::vector<Place> places(field.samples.size());
-    std::vector<uint> brickOfKey(tableSize, kNoBrick);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const LightFieldSample& s = field.samples[i];
-        places[i] =
-            reaches(s, region, marginPx) ? placeOf(grid, pinholePosition(s), s.slope) : Place{kNoBrick, 0};
-        if (places[i].brickKey != kNoBrick) brickOfKey[places[i].brickKey] = 0;
-    }
-    for (std::size_t key = 0; key < tableSize; ++key)
-        if (brickOfKey[key] != kNoBrick) {
-            brickOfKey[key] = uint(bins.bricks.size());
-            bins.bricks.push_back(brickAt(grid, uint(key)));
+    bins.positions.reserve(order.size());
+    bins.radiances.reserve(order.size());
+    uint lastKey = kNotBinned;
+    for (std::size_t record = 0; record < order.size(); ++record) {
+        const uint key = uint(order[record] >> 32);
+        const LightFieldSample& s = field.samples[uint(order[record])];
+        if (key / cellsPerBrick != lastKey) {
+            lastKey = key / cellsPerBrick;
+            bins.bricks.push_back(brickAt(bins.grid, lastKey, s.slope));
         }
-
-    const std::size_t cellsPerBrick = std::size_t(grid.cellsPerBrick) * grid.cellsPerBrick;
-    bins.cellStart.assign(bins.bricks.size() * cellsPerBrick + 1, 0);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        if (places[i].brickKey == kNoBrick) continue;
-        const uint id = brickOfKey[places[i].brickKey];
-        Brick& brick = bins.bricks[id];
-        brick.slopeMin = std::min(brick.slopeMin, field.samples[i].slope);
-        brick.slopeMax = std::max(brick.slopeMax, field.samples[i].slope);
-        places[i].cell += uint(id * cellsPerBrick);
-        ++bins.cellStart[places[i].cell + 1];
+        Brick& brick = bins.bricks.back();
+        brick.slopeMin = std::min(brick.slopeMin, s.slope);
+        brick.slopeMax = std::max(brick.slopeMax, s.slope);
+        // Cells up to this one begin here at the latest.
+        bins.cellStart.resize((bins.bricks.size() - 1) * cellsPerBrick + key % cellsPerBrick + 1,
+                              uint(record));
+        bins.positions.emplace_back(pinholePosition(s), s.slope, 0);
+        bins.radiances.emplace_back(s.r, s.g, s.b, s.alpha);
     }
-    for (std::size_t cell = 1; cell < bins.cellStart.size(); ++cell)
-        bins.cellStart[cell] += bins.cellStart[cell - 1];
-
-    bins.positions.resize(bins.cellStart.back());
-    bins.radiances.resize(bins.cellStart.back());
-    std::vector<uint> next(bins.cellStart.begin(), bins.cellStart.end() - 1);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        if (places[i].brickKey == kNoBrick) continue;
-        const LightFieldSample& s = field.samples[i];
-        const uint record = next[places[i].cell]++;
-        bins.positions[record] = vec4(pinholePosition(s), s.slope, 0);
-        bins.radiances[record] = vec4(s.r, s.g, s.b, s.alpha);
-    }
+    bins.cellStart.resize(bins.bricks.size() * cellsPerBrick + 1, uint(order.size()));
     return bins;
 }
 

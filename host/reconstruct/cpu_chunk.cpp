@@ -14,9 +14,10 @@ SearchContext contextOf(const Bins& bins, const TileLists& lists, std::size_t li
 
 } // namespace
 
-CpuChunk::CpuChunk(const Bins& bins, const OutputPattern& pattern, const Band& band, std::size_t firstGroup,
-                   std::size_t groupCount)
-    : bins_(bins), pattern_(pattern), band_(band), groups_(pattern.groups.data() + firstGroup, groupCount),
+CpuChunk::CpuChunk(const Bins& bins, const OutputPattern& pattern, const Band& band, std::uint64_t seed,
+                   std::size_t firstGroup, std::size_t groupCount)
+    : bins_(bins), pattern_(pattern), layout_(layoutOf(band, pattern, seed)),
+      groups_(pattern.groups.data() + firstGroup, groupCount),
       firstOutput_(int(firstGroup) * kOutputsPerGroup),
       outputCount_(std::min(int(groupCount) * kOutputsPerGroup, pattern.outputsPerPixel() - firstOutput_)) {
     dense.region = band.region;
@@ -24,8 +25,8 @@ CpuChunk::CpuChunk(const Bins& bins, const OutputPattern& pattern, const Band& b
 }
 
 void CpuChunk::run(Monitor& monitor, ReconstructReport& report) {
-    lists = makeTileLists(bins_, band_.layout, groups_, 2 * bins_.grid.radiusPx);
-    const std::size_t tiles = std::size_t(band_.layout.tileCount.x) * band_.layout.tileCount.y;
+    lists = makeTileLists(bins_, layout_, groups_, 2 * bins_.grid.radiusPx);
+    const std::size_t tiles = std::size_t(layout_.tileCount.x) * layout_.tileCount.y;
     parallelFor(0, tiles, 1, [&](std::size_t first, std::size_t last) {
         Counts counts;
         for (std::size_t tile = first; tile < last; ++tile) runTile(tile, counts);
@@ -39,17 +40,16 @@ void CpuChunk::run(Monitor& monitor, ReconstructReport& report) {
 }
 
 CpuChunk::Slot CpuChunk::slotAt(ivec2 position, int output) const {
-    const OutputLayout& layout = band_.layout;
-    const std::size_t tiles = std::size_t(layout.tileCount.x) * layout.tileCount.y;
+    const std::size_t tiles = std::size_t(layout_.tileCount.x) * layout_.tileCount.y;
     const ivec2 tile = position / kTileSize;
-    return {output * band_.region.area() + std::size_t(position.y) * layout.regionSize.x + position.x,
-            output / kOutputsPerGroup * tiles + std::size_t(tile.y) * layout.tileCount.x + tile.x,
-            layout.regionOrigin + position, output};
+    return {output * dense.region.area() + std::size_t(position.y) * layout_.regionSize.x + position.x,
+            output / kOutputsPerGroup * tiles + std::size_t(tile.y) * layout_.tileCount.x + tile.x,
+            layout_.regionOrigin + position, output};
 }
 
 Output CpuChunk::at(const Slot& slot) const {
     const int output = firstOutput_ + slot.output;
-    return outputAt(slot.pixel, output, pattern_.entries[output], pattern_.lensCells, band_.layout.seed);
+    return outputAt(slot.pixel, output, pattern_.entries[output], pattern_.lensCells, layout_.seed);
 }
 
 void CpuChunk::store(const Slot& slot, const Output& output, const Reconstructed& result) {
@@ -58,24 +58,34 @@ void CpuChunk::store(const Slot& slot, const Output& output, const Reconstructed
 }
 
 void CpuChunk::runTile(std::size_t tile, Counts& counts) {
-    const OutputLayout& layout = band_.layout;
-    const ivec2 corner = kTileSize * ivec2(int(tile) % layout.tileCount.x, int(tile) / layout.tileCount.x);
-    const ivec2 end = glm::min(corner + kTileSize, layout.regionSize);
+    const ivec2 corner = kTileSize * ivec2(int(tile) % layout_.tileCount.x, int(tile) / layout_.tileCount.x);
+    const ivec2 end = glm::min(corner + kTileSize, layout_.regionSize);
     for (int k = 0; k < outputCount_; ++k)
         for (int y = corner.y; y < end.y; ++y)
-            for (int x = corner.x; x < end.x; ++x) {
-                const Slot slot = slotAt(ivec2(x, y), k);
-                const Output output = at(slot);
-                const SearchContext context = contextOf(bins_, lists, slot.list);
-                Reconstructed result = reconstructNearest(context, output);
-                if (result.outcome == Outcome::needsVisibility) {
-                    ++counts.visibility;
-                    result = resolveVisibility(context, output, bins_.grid.radiusPx);
-                }
-                if (result.outcome == Outcome::hole) counts.holes.push_back(slot);
-                store(slot, output, result);
-                ++counts.outputs;
-            }
+            for (int x = corner.x; x < end.x; ++x) runSlot(slotAt(ivec2(x, y), k), counts);
+}
+
+void CpuChunk::runSlot(const Slot& slot, Counts& counts) {
+    const Output output = at(slot);
+    const SearchContext context = contextOf(bins_, lists, slot.list);
+    Reconstructed result = reconstructNearest(context, output);
+    if (result.outcome == Outcome::needsVisibility) {
+        ++counts.visibility;
+        result = resolveVisibility(context, output, bins_.grid.radiusPx);
+    }
+    if (result.outcome == Outcome::hole) counts.holes.push_back(slot);
+    store(slot, output, result);
+    ++counts.outputs;
+}
+
+void CpuChunk::redo(std::span<const uint> indices, ReconstructReport& report) {
+    lists = makeTileLists(bins_, layout_, groups_, 2 * bins_.grid.radiusPx);
+    const int width = layout_.regionSize.x;
+    for (const uint index : indices) {
+        const int plane = int(index / dense.region.area()), pixel = int(index % dense.region.area());
+        runSlot(slotAt(ivec2(pixel % width, pixel / width), plane), counts_);
+    }
+    widen(report);
 }
 
 void CpuChunk::add(const Counts& counts) {
@@ -91,7 +101,7 @@ void CpuChunk::widen(ReconstructReport& report) {
     float radius = bins_.grid.radiusPx;
     for (int step = 0; step < kWidenings && !holes.empty(); ++step) {
         radius *= 2;
-        const TileLists wide = makeTileLists(bins_, band_.layout, groups_, 2 * radius);
+        const TileLists wide = makeTileLists(bins_, layout_, groups_, 2 * radius);
         std::erase_if(holes, [&](const Slot& slot) {
             const Output output = at(slot);
             const Reconstructed result = resolveVisibility(contextOf(bins_, wide, slot.list), output, radius);

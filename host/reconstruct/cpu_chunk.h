@@ -13,11 +13,14 @@ namespace slant {
 /// The outputs of a chunk of lens groups over one band.
 class CpuChunk {
 public:
-    CpuChunk(const Bins& bins, const OutputPattern& pattern, const Band& band, std::size_t firstGroup,
-             std::size_t groupCount);
+    CpuChunk(const Bins& bins, const OutputPattern& pattern, const Band& band, std::uint64_t seed,
+             std::size_t firstGroup, std::size_t groupCount);
 
     /// Lists, then every output; progress in outputs. Adds to the counts of `report`.
     void run(Monitor& monitor, ReconstructReport& report);
+
+    /// Only these samples of `dense`, by index: those that the compute path leaves to the CPU.
+    void redo(std::span<const uint> indices, ReconstructReport& report);
 
     DenseSamples dense;
     TileLists lists;
@@ -38,12 +41,13 @@ private:
     Output at(const Slot& slot) const;
     void store(const Slot& slot, const Output& output, const Reconstructed& result);
     void runTile(std::size_t tile, Counts& counts);
+    void runSlot(const Slot& slot, Counts& counts);
     void add(const Counts& counts);
     void widen(ReconstructReport& report);
 
     const Bins& bins_;
     const OutputPattern& pattern_;
-    const Band& band_;
+    OutputLayout layout_;
     std::span<const LensBox> groups_;
     int firstOutput_, outputCount_;
     std::mutex mutex_;

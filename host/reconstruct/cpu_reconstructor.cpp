@@ -22,23 +22,23 @@ Bins timedBins(const LightField& field, const Rect& region, ReconstructReport& r
     return binSamples(field, region, kSearchRadii * emptyCircleRadius(field.samplesPerPixel));
 }
 
-void filterBox(const LightField& field, FilmBuffer& film, ReconstructReport& report,
-               StageObserver* observer) {
-    const Rect region{film.frame().x0 - film.filter().reach.x, film.frame().y0 - film.filter().reach.y,
-                      film.frame().x1 + film.filter().reach.x, film.frame().y1 + film.filter().reach.y};
+void filterBox(const LightField& field, const ReconstructOptions& options, FilmBuffer& film,
+               ReconstructReport& report, StageObserver* observer) {
     StageTimer timer(report, "pixel_filter", "samples");
     timer.items = field.samples.size();
-    const DenseSamples dense = denseFromInput(field.samples, field.bounds, field.samplesPerPixel, region);
-    observe(observer, "dense", dense.samples);
-    film.accumulate(dense, film.frame().y0, film.frame().y1, kOutputsPerGroup);
+    for (const Band& band :
+         planBands(field.frame, film.filter(), field.samplesPerPixel, maxDenseSamples(options))) {
+        const DenseSamples dense = denseFromInput(field, band.region);
+        observe(observer, "dense", dense.samples);
+        film.accumulate(dense, band.y0, band.y1, kOutputsPerGroup);
+    }
 }
 
 void filterFull(const LightField& field, const ReconstructOptions& options, FilmBuffer& film,
                 Monitor& monitor, ReconstructReport& report, StageObserver* observer) {
     const OutputPattern pattern = makeOutputPattern(options.outputsPerPixel);
-    const Plan plan = planOutputs(field.frame, film.filter(), pattern, std::uint32_t(options.seed),
-                                  options.memoryBytes, std::numeric_limits<std::uint64_t>::max());
-    const Bins bins = timedBins(field, plan.region, report);
+    const Plan plan = planOutputs(field.frame, film.filter(), pattern, maxDenseSamples(options));
+    const Bins bins = timedBins(field, outputRegion(field.frame, film.filter()), report);
     observe(observer, "bin.bricks", bins.bricks);
     observe(observer, "bin.cells", bins.cellStart);
     observe(observer, "bin.positions", bins.positions);
@@ -49,12 +49,12 @@ void filterFull(const LightField& field, const ReconstructOptions& options, Film
         for (std::size_t group = 0; group < pattern.groups.size(); group += plan.groupsPerChunk) {
             const std::size_t count =
                 std::min<std::size_t>(plan.groupsPerChunk, pattern.groups.size() - group);
-            CpuChunk chunk(bins, pattern, band, group, count);
+            CpuChunk chunk(bins, pattern, band, options.seed, group, count);
             {
                 StageTimer timer(report, "reconstruct", "outputs");
                 chunk.run(monitor, report);
-                timer.items = timer.bytes = chunk.dense.samples.size();
-                timer.bytes *= sizeof(vec4);
+                timer.items = chunk.dense.samples.size();
+                timer.bytes = chunk.dense.samples.size() * sizeof(vec4);
             }
             observe(observer, "lists.start", chunk.lists.start);
             observe(observer, "lists.bricks", chunk.lists.bricks);
@@ -72,7 +72,7 @@ Image CpuReconstructor::reconstruct(const LightField& field, const ReconstructOp
                                     Monitor& monitor, ReconstructReport& report, StageObserver* observer) {
     FilmBuffer film(field.frame, makeFilterTable(options.filter));
     if (options.method == Method::box)
-        filterBox(field, film, report, observer);
+        filterBox(field, options, film, report, observer);
     else
         filterFull(field, options, film, monitor, report, observer);
     observe(observer, "film", film.sums());

@@ -74,17 +74,18 @@ Image FilmBuffer::toImage(std::uint64_t& emptyPixels) const {
     return image;
 }
 
-DenseSamples denseFromInput(std::span<const LightFieldSample> samples, const Rect& bounds,
-                            int samplesPerPixel, const Rect& region) {
-    DenseSamples dense{region, std::vector<vec4>(region.area() * samplesPerPixel, vec4(0, 0, 0, -1))};
+DenseSamples denseFromInput(const LightField& field, const Rect& region) {
+    const std::size_t spp = std::size_t(field.samplesPerPixel);
+    DenseSamples dense{region, std::vector<vec4>(region.area() * spp, vec4(0, 0, 0, -1))};
     parallelFor(0, std::size_t(region.height()), 1, [&](std::size_t first, std::size_t last) {
         for (int j = int(first); j < int(last); ++j)
             for (int i = 0; i < region.width(); ++i) {
                 const int x = region.x0 + i, y = region.y0 + j;
-                if (!bounds.contains(x, y)) continue;
-                const std::size_t pixel = std::size_t(y - bounds.y0) * bounds.width() + (x - bounds.x0);
-                for (int k = 0; k < samplesPerPixel; ++k) {
-                    const LightFieldSample& s = samples[pixel * samplesPerPixel + k];
+                if (!field.bounds.contains(x, y)) continue;
+                const std::size_t pixel = std::size_t(y - field.bounds.y0) * field.bounds.width() +
+                                          std::size_t(x - field.bounds.x0);
+                for (std::size_t k = 0; k < spp; ++k) {
+                    const LightFieldSample& s = field.samples[pixel * spp + k];
                     dense.samples[k * region.area() + std::size_t(j) * region.width() + i] =
                         vec4(s.r, s.g, s.b, positionCode(s.x - float(x), s.y - float(y)));
                 }

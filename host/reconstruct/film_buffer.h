@@ -4,7 +4,6 @@
 #include "lightfield/lightfield.h"
 #include "reconstruct/filter_table.h"
 
-#include <span>
 #include <vector>
 
 namespace slant {
@@ -45,7 +44,6 @@ private:
 };
 
 /// Input samples as dense planes; pixels of `region` outside `bounds` have none.
-DenseSamples denseFromInput(std::span<const LightFieldSample> samples, const Rect& bounds,
-                            int samplesPerPixel, const Rect& region);
+DenseSamples denseFromInput(const LightField& field, const Rect& region);
 
 } // namespace slant

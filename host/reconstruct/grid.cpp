@@ -16,7 +16,7 @@ constexpr float kCellPerRadius = 0.7f;
 constexpr float kBrickPx = 8;
 constexpr int kMaxCellsPerBrick = 32;
 constexpr float kBucketPerRadius = 1.5f;
-constexpr std::int64_t kMaxBricks = std::int64_t(1) << 22;
+constexpr std::int64_t kMaxBricks = std::int64_t(1) << 21;
 /// Two surfaces this far apart in slope can hide each other (METHODS section 2: 0.1 px over a lens step of
 /// 1/sqrt(128)).
 constexpr float kSurfaceSlopeStep = 1.13f;
@@ -24,20 +24,22 @@ constexpr float kSurfaceSlopeStep = 1.13f;
 struct Bounds {
     vec2 min{kInfinity}, max{-kInfinity};
     float slopeMin = kInfinity, slopeMax = -kInfinity;
+    std::uint64_t count = 0;
 
     void add(vec2 p, float slope) {
+        ++count;
         min = glm::min(min, p);
         max = glm::max(max, p);
         slopeMin = std::min(slopeMin, slope);
         slopeMax = std::max(slopeMax, slope);
     }
     void add(const Bounds& o) {
+        count += o.count;
         min = glm::min(min, o.min);
         max = glm::max(max, o.max);
         slopeMin = std::min(slopeMin, o.slopeMin);
         slopeMax = std::max(slopeMax, o.slopeMax);
     }
-    bool empty() const { return !(min.x <= max.x); }
 };
 
 Bounds boundsOf(const LightField& field, const Rect& region, float marginPx) {
@@ -71,24 +73,30 @@ bool reaches(const LightFieldSample& s, const Rect& region, float marginPx) {
 
 GridLayout chooseGrid(const LightField& field, const Rect& region, float marginPx) {
     Bounds bounds = boundsOf(field, region, marginPx);
-    if (bounds.empty()) bounds.add(vec2(0), 0);
     GridLayout grid{};
+    grid.sampleCount = uint(bounds.count);
+    if (bounds.count == 0) bounds.add(vec2(0), 0);
     grid.radiusPx = emptyCircleRadius(field.samplesPerPixel);
-    grid.slopeMin = bounds.slopeMin;
-    const float slopeRange = bounds.slopeMax - bounds.slopeMin;
+
+    const float widestPx = float(std::max(region.width(), region.height())) / 2;
+    const float slopeMin = std::clamp(bounds.slopeMin, -widestPx, widestPx);
+    const float slopeMax = std::clamp(bounds.slopeMax, -widestPx, widestPx);
+    const vec2 regionMin(float(region.x0), float(region.y0)), regionMax(float(region.x1), float(region.y1));
+    const vec2 low = glm::max(bounds.min, regionMin - widestPx),
+               high = glm::min(bounds.max, regionMax + widestPx);
+    grid.slopeMin = slopeMin;
+    grid.origin = glm::floor(glm::min(low, high));
 
     float cellPx = grid.radiusPx * kCellPerRadius;
     float bucketWidth = std::min(grid.radiusPx * kBucketPerRadius, kSurfaceSlopeStep);
     grid.cellsPerBrick = std::clamp(int(std::lround(kBrickPx / cellPx)), 1, kMaxCellsPerBrick);
-    grid.origin = glm::floor(bounds.min);
-    const vec2 extent = bounds.max - grid.origin;
     for (;;) {
         grid.invCell = 1 / cellPx;
         grid.invBucket = 1 / bucketWidth;
         grid.surfaceGap = std::max(bucketWidth, kSurfaceSlopeStep);
-        grid.brickCount =
-            ivec2(glm::min(extent * (grid.invCell / float(grid.cellsPerBrick)), vec2(1e7f))) + 1;
-        grid.bucketCount = int(std::min(slopeRange * grid.invBucket, 1e7f)) + 1;
+        grid.brickCount = ivec2((high - grid.origin) * (grid.invCell / float(grid.cellsPerBrick))) + 1;
+        grid.brickCount = glm::max(grid.brickCount, ivec2(1));
+        grid.bucketCount = int((slopeMax - slopeMin) * grid.invBucket) + 1;
         const auto area = std::int64_t(grid.brickCount.x) * grid.brickCount.y;
         if (area * grid.bucketCount <= kMaxBricks) return grid;
         if (grid.bucketCount > 64)

@@ -4,6 +4,10 @@
 
 namespace slant {
 
+std::uint64_t maxDenseSamples(const ReconstructOptions& options) {
+    return options.memoryBytes / 2 / sizeof(vec4);
+}
+
 StageStats& ReconstructReport::stage(const char* name, const char* unit) {
     const auto found = std::find_if(stages.begin(), stages.end(),
                                     [&](const StageStats& stage) { return stage.name == name; });

@@ -26,6 +26,9 @@ struct ReconstructOptions {
     std::uint64_t memoryBytes = std::uint64_t(1) << 30; ///< for dense samples and lists
 };
 
+/// Dense samples that may be held at a time: half the memory budget.
+std::uint64_t maxDenseSamples(const ReconstructOptions& options);
+
 /// Receives what a stage made, in the order in which the stages run, as 32-bit words. CPU and compute report
 /// the same stages with the same words, so that the first difference names the stage at fault.
 class StageObserver {

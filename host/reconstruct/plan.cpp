@@ -6,42 +6,54 @@
 
 namespace slant {
 
-Plan planOutputs(const Rect& frame, const FilterTable& filter, const OutputPattern& pattern,
-                 std::uint32_t seed, std::uint64_t memoryBytes, std::uint64_t maxDenseSamples) {
-    const int groupSize = std::min(kOutputsPerGroup, pattern.outputsPerPixel());
-    const std::uint64_t samples = std::min(memoryBytes / sizeof(vec4), maxDenseSamples);
-    const std::uint64_t width = std::uint64_t(frame.width() + 2 * filter.reach.x);
-    const std::uint64_t rowsThatFit = samples / (width * groupSize);
+std::vector<Band> planBands(const Rect& frame, const FilterTable& filter, int planes,
+                            std::uint64_t maxSamples) {
     const int reach = filter.reach.y;
-    const int tileRows = (frame.height() + kTileSize - 1) / kTileSize * kTileSize;
+    const std::uint64_t rowSamples = std::uint64_t(frame.width() + 2 * filter.reach.x) * planes;
+    const std::uint64_t rowsThatFit = maxSamples / std::max<std::uint64_t>(rowSamples, 1);
     const int rows =
-        int(std::min<std::uint64_t>(rowsThatFit, std::uint64_t(tileRows + 2 * reach))) - 2 * reach;
-    if (rows < kTileSize)
+        int(std::min<std::uint64_t>(rowsThatFit, std::uint64_t(frame.height() + kTileSize + 2 * reach)));
+    const int bandRows = (rows - 2 * reach) / kTileSize * kTileSize;
+    if (bandRows < kTileSize)
         throw Error(
             ErrorCode::resources,
-            fmt::format(
-                "a memory budget of {} MiB is too small for a picture {} pixels wide; it needs {} MiB",
-                memoryBytes >> 20, frame.width(),
-                ((width * (kTileSize + 2 * reach) * groupSize * sizeof(vec4)) >> 20) + 1));
-    const int bandRows = rows / kTileSize * kTileSize;
-
-    Plan plan;
-    plan.region = {frame.x0 - filter.reach.x, frame.y0 - reach, frame.x1 + filter.reach.x, frame.y1 + reach};
+            fmt::format("the memory budget is too small for a picture {} pixels wide: it needs {} MiB for "
+                        "dense samples",
+                        frame.width(), (rowSamples * (kTileSize + 2 * reach) * sizeof(vec4) >> 20) + 1));
+    const Rect whole = outputRegion(frame, filter);
+    std::vector<Band> bands;
     for (int y = frame.y0; y < frame.y1; y += bandRows) {
-        Band band;
-        band.y0 = y;
-        band.y1 = std::min(y + bandRows, frame.y1);
-        band.region = {plan.region.x0, band.y0 - reach, plan.region.x1, band.y1 + reach};
-        band.layout.regionOrigin = ivec2(band.region.x0, band.region.y0);
-        band.layout.regionSize = ivec2(band.region.width(), band.region.height());
-        band.layout.tileCount = (band.layout.regionSize + kTileSize - 1) / kTileSize;
-        band.layout.outputsPerPixel = pattern.outputsPerPixel();
-        band.layout.seed = seed;
-        plan.bands.push_back(band);
-        plan.outputs += band.region.area() * std::uint64_t(pattern.outputsPerPixel());
+        const int end = std::min(y + bandRows, frame.y1);
+        bands.push_back({y, end, {whole.x0, y - reach, whole.x1, end + reach}});
     }
-    const std::uint64_t perGroup = plan.bands.front().region.area() * groupSize;
-    plan.groupsPerChunk = int(std::clamp<std::uint64_t>(samples / perGroup, 1, pattern.groups.size()));
+    return bands;
+}
+
+Rect outputRegion(const Rect& frame, const FilterTable& filter) {
+    return {frame.x0 - filter.reach.x, frame.y0 - filter.reach.y, frame.x1 + filter.reach.x,
+            frame.y1 + filter.reach.y};
+}
+
+OutputLayout layoutOf(const Band& band, const OutputPattern& pattern, std::uint64_t seed) {
+    OutputLayout layout;
+    layout.regionOrigin = ivec2(band.region.x0, band.region.y0);
+    layout.regionSize = ivec2(band.region.width(), band.region.height());
+    layout.tileCount = (layout.regionSize + kTileSize - 1) / kTileSize;
+    layout.outputsPerPixel = pattern.outputsPerPixel();
+    layout.seed = uint(seed ^ seed >> 32);
+    return layout;
+}
+
+Plan planOutputs(const Rect& frame, const FilterTable& filter, const OutputPattern& pattern,
+                 std::uint64_t maxSamples) {
+    const int groupSize = std::min(kOutputsPerGroup, pattern.outputsPerPixel());
+    Plan plan;
+    plan.bands = planBands(frame, filter, groupSize, maxSamples);
+    for (const Band& band : plan.bands)
+        plan.outputs += band.region.area() * std::uint64_t(pattern.outputsPerPixel());
+    const std::uint64_t samplesPerGroup = plan.bands.front().region.area() * groupSize;
+    plan.groupsPerChunk =
+        int(std::clamp<std::uint64_t>(maxSamples / samplesPerGroup, 1, pattern.groups.size()));
     return plan;
 }
 

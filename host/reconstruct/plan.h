@@ -16,19 +16,27 @@ constexpr float kSearchRadii = 16;
 
 struct Band {
     int y0, y1;  ///< rows of the frame that it finishes
-    Rect region; ///< pixels whose outputs it needs: the rows and the filter's reach
-    OutputLayout layout;
+    Rect region; ///< pixels whose dense samples it needs: the rows and the filter's reach
 };
+
+/// Bands whose region holds at most `maxSamples` dense samples at `planes` a pixel. Throws Error(resources)
+/// when a row of tiles is more than that.
+std::vector<Band> planBands(const Rect& frame, const FilterTable& filter, int planes,
+                            std::uint64_t maxSamples);
+
+/// The whole picture and the filter's reach.
+Rect outputRegion(const Rect& frame, const FilterTable& filter);
+
+OutputLayout layoutOf(const Band& band, const OutputPattern& pattern, std::uint64_t seed);
 
 struct Plan {
     std::vector<Band> bands;
     int groupsPerChunk = 1;
-    Rect region;               ///< of all bands together
     std::uint64_t outputs = 0; ///< in all
 };
 
-/// Throws Error(resources) when even one row of tiles with one lens group exceeds `memoryBytes`.
+/// Bands and chunks of at most `maxSamples` dense samples.
 Plan planOutputs(const Rect& frame, const FilterTable& filter, const OutputPattern& pattern,
-                 std::uint32_t seed, std::uint64_t memoryBytes, std::uint64_t maxDenseSamples);
+                 std::uint64_t maxSamples);
 
 } // namespace slant

@@ -15,6 +15,11 @@ struct Candidate {
     uint record;
 };
 
+ivec2 cellAt(const GridLayout& grid, vec2 place) {
+    const ivec2 cells = grid.brickCount * grid.cellsPerBrick;
+    return ivec2(glm::clamp(glm::floor(place), vec2(0), vec2(cells - 1)));
+}
+
 /// Calls visit for the samples that reproject to within `radius` of the output, until it returns false. They
 /// come in the order of their bricks: front to back, up to the width of a bucket. Returns loop steps.
 template <typename Visit>
@@ -28,8 +33,8 @@ int forEachCandidate(const SearchContext& context, const Output& output, float r
         const vec2 low = (output.xy - glm::max(a, b) - radius - grid.origin) * grid.invCell;
         const vec2 high = (output.xy - glm::min(a, b) + radius - grid.origin) * grid.invCell;
         const ivec2 corner(brick.firstCellX, brick.firstCellY);
-        const ivec2 first = glm::max(ivec2(glm::floor(low)) - corner, ivec2(0));
-        const ivec2 last = glm::min(ivec2(glm::floor(high)) - corner, ivec2(side - 1));
+        const ivec2 first = glm::max(cellAt(grid, low) - corner, ivec2(0));
+        const ivec2 last = glm::min(cellAt(grid, high) - corner, ivec2(side - 1));
         ++iterations;
         if (first.x > last.x) continue;
         for (int row = first.y; row <= last.y; ++row) {

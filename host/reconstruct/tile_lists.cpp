@@ -2,10 +2,10 @@
 
 #include "base/parallel.h"
 
-#include <limits>
-
 namespace slant {
 namespace {
+
+constexpr float kFarPx = 1e9f; ///< further than any sample that can be seen
 
 int tileOf(float px) {
     return int(glm::floor(glm::clamp(px * (1.f / float(kTileSize)), -1e6f, 1e6f)));
@@ -16,8 +16,13 @@ int tileOf(float px) {
 TileRange tilesSeeing(const Brick& brick, const GridLayout& grid, const OutputLayout& layout,
                       const LensBox& box, float marginPx) {
     const float cellPx = 1.f / grid.invCell;
-    const vec2 low = grid.origin + vec2(float(brick.firstCellX), float(brick.firstCellY)) * cellPx;
-    const vec2 high = low + float(grid.cellsPerBrick) * cellPx;
+    const ivec2 corner(brick.firstCellX, brick.firstCellY), cells = grid.brickCount * grid.cellsPerBrick;
+    vec2 low = grid.origin + vec2(corner) * cellPx;
+    vec2 high = low + float(grid.cellsPerBrick) * cellPx;
+    if (corner.x == 0) low.x = -kFarPx;
+    if (corner.y == 0) low.y = -kFarPx;
+    if (corner.x + grid.cellsPerBrick == cells.x) high.x = kFarPx;
+    if (corner.y + grid.cellsPerBrick == cells.y) high.y = kFarPx;
     const vec2 a = brick.slopeMin * box.min, b = brick.slopeMin * box.max;
     const vec2 c = brick.slopeMax * box.min, d = brick.slopeMax * box.max;
     const vec2 shearMin = glm::min(glm::min(a, b), glm::min(c, d));

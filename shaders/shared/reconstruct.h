@@ -6,32 +6,32 @@
 SLANT_SHARED_BEGIN
 
 /// Outputs are reconstructed in square tiles of this many pixels a side; one workgroup is one tile.
-const int kTileSize = 8;
+SLANT_SHARED_CONSTANT int kTileSize = 8;
 /// Outputs of a pixel that share a lens group, and so a list of bricks.
-const int kOutputsPerGroup = 4;
+SLANT_SHARED_CONSTANT int kOutputsPerGroup = 4;
 /// A surface of fewer samples than this is merged into the next one behind it.
-const int kMinSurfaceSamples = 4;
+SLANT_SHARED_CONSTANT int kMinSurfaceSamples = 4;
 /// Positions of outputs inside their pixel are multiples of 1 / kSubpixels (plus half a step).
-const int kSubpixels = 4096;
+SLANT_SHARED_CONSTANT int kSubpixels = 4096;
 /// An invocation stops before it has looked at more candidates than this, and the output is counted as
 /// overflowed: lavapipe breaks loops after 65,535 iterations.
-const int kMaxLoopIterations = 60000;
-/// A sample that is not binned.
-const uint kNoBrick = 0xffffffffu;
+SLANT_SHARED_CONSTANT int kMaxLoopIterations = 60000;
+/// Sort key of a sample that no output can use.
+SLANT_SHARED_CONSTANT uint kNotBinned = 0xffffffffu;
 
 /// The sparse grid that holds the input samples by pinhole position and slope. A *brick* is a square of
 /// cellsPerBrick x cellsPerBrick cells within one bucket of slopes; only occupied bricks are stored.
 struct GridLayout {
-    vec2 origin;        // raster position of the corner of brick (0, 0)
-    float invCell;      // 1 / (side of a cell in pixels)
-    int cellsPerBrick;  // along one side
-    ivec2 brickCount;   // bricks along x and y
-    int bucketCount;    // slope buckets
-    float slopeMin;     // pixels per lens radius
-    float invBucket;    // 1 / (width of a slope bucket)
-    float surfaceGap;    // samples further apart in slope are on different surfaces; >= a bucket's width
-    float radiusPx;     // R: radius of the largest empty circle of the input pattern
-    int unused;
+    vec2 origin;       // raster position of the corner of brick (0, 0)
+    float invCell;     // 1 / (side of a cell in pixels)
+    int cellsPerBrick; // along one side
+    ivec2 brickCount;  // bricks along x and y; those of the rim reach to infinity
+    int bucketCount;   // slope buckets; the first and the last reach to infinity
+    float slopeMin;    // where the first bucket would begin, pixels per lens radius
+    float invBucket;   // 1 / (width of a slope bucket)
+    float surfaceGap;  // samples further apart in slope are on different surfaces; >= a bucket's width
+    float radiusPx;    // R: radius of the largest empty circle of the input pattern
+    uint sampleCount;  // binned samples
 };
 
 /// The outputs: outputsPerPixel for each pixel of the region.
@@ -43,11 +43,57 @@ struct OutputLayout {
     uint seed;
 };
 
-/// An occupied brick: its place in cells and the slopes that its samples have. One RGBA32F texel, the
-/// integers as bits.
+/// An occupied brick: its place and the slopes that its samples have. One RGBA32UI texel, the floats as bits.
 struct Brick {
     int firstCellX, firstCellY; // its corner, in cells from the grid's origin
     float slopeMin, slopeMax;
+};
+
+/// Words of the counters that passes append to.
+SLANT_SHARED_CONSTANT uint kVisibilityCount = 0u; // outputs that need visibility
+SLANT_SHARED_CONSTANT uint kHoleCount = 1u;       // outputs that found nothing
+SLANT_SHARED_CONSTANT uint kOverflowCount = 2u;   // outputs over kMaxLoopIterations
+SLANT_SHARED_CONSTANT uint kCounters = 4u;
+
+/// bin_place, bin_gather, bin_cells.
+struct BinPush {
+    GridLayout grid;
+    ivec2 regionMin, regionMax; // pixels whose outputs count
+    float marginPx;             // widest search
+    uint firstSample;           // of the uploaded part
+    uint count;                 // items of this dispatch
+    uint brickTotal;            // occupied bricks
+};
+
+/// list_count, list_emit, reconstruct, visibility.
+struct OutputPush {
+    GridLayout grid;
+    OutputLayout outputs;
+    ivec2 lensCells;
+    int firstOutput;   // of the chunk
+    uint count;        // invocations
+    uint firstGroup;   // lens groups of the chunk
+    uint groupCount;
+    uint brickTotal;
+    float radiusPx;    // lists: margin around a tile; visibility: base radius
+};
+
+/// pixel_filter: planes of dense samples into a band of the film.
+struct FilterPush {
+    ivec2 regionSize;   // of the dense planes
+    ivec2 reach;        // pixels to each side
+    ivec2 tableLength;  // entries of each axis
+    ivec2 filmSize;
+    int firstRow;       // of the film
+    int rowCount;
+    int firstPlane;
+    int planeCount;
+};
+
+/// list_start.
+struct LowerBoundPush {
+    uint keyCount;
+    uint count;
 };
 
 SLANT_SHARED_END

@@ -1,0 +1,33 @@
+// Stage "bin" on the device: the same words as binSamples (reconstruct/bins.h).
+#pragma once
+#include "compute/radix_sort.h"
+#include "lightfield/lightfield.h"
+#include "shared/reconstruct.h"
+
+namespace slant {
+
+struct DeviceBins {
+    GridLayout grid{};
+    uint brickTotal = 0;
+    Buffer positions, radiances; ///< records in cell order
+    Buffer cellStart;            ///< brickTotal * cells of a brick + 1
+    Buffer bricks;
+};
+
+class BinPasses {
+public:
+    explicit BinPasses(Device& device);
+
+    /// Runs on `commands`, which must be empty, and leaves it empty.
+    DeviceBins run(CommandList& commands, const LightField& field, const Rect& region, float marginPx);
+
+private:
+    /// What bin_place makes of the samples, in sample order.
+    struct Placed;
+    void place(CommandList& commands, const LightField& field, BinPush push, Placed& placed);
+
+    Device& device_;
+    Pass place_, gather_, slopes_, bricks_, cells_;
+};
+
+} // namespace slant

@@ -1,0 +1,48 @@
+#include "compute/list_passes.h"
+
+#include <bit>
+
+namespace slant {
+namespace {
+
+Buffer uploadBoxes(Device& device, const OutputPattern& pattern) {
+    static_assert(sizeof(LensBox) == sizeof(vec4));
+    Buffer boxes(device, TexelFormat::rgba32f, pattern.groups.size());
+    boxes.upload(std::span(pattern.groups));
+    return boxes;
+}
+
+} // namespace
+
+ListPasses::ListPasses(Device& device, const OutputPattern& pattern)
+    : device_(device), count_(device, "list_count"), emit_(device, "list_emit"), start_(device, "list_start"),
+      scan_(device, 1), sort_(device, 1), lensBoxes_(uploadBoxes(device, pattern)) {}
+
+DeviceLists ListPasses::run(CommandList& commands, const DeviceBins& bins, OutputPush push, float marginPx) {
+    push.radiusPx = marginPx;
+    push.count = push.groupCount * bins.brickTotal;
+    Buffer offsets(device_, TexelFormat::r32ui, push.count + 1);
+    commands.dispatch(count_, {bins.bricks, lensBoxes_, offsets}, push, count_.gridFor(push.count + 1));
+    scan_.reserve(push.count + 1);
+    scan_.record(commands, offsets, push.count + 1);
+    commands.run();
+    uint entries = 0;
+    offsets.download(std::span(&entries, 1), push.count);
+
+    const uint lists = push.groupCount * uint(push.outputs.tileCount.x) * uint(push.outputs.tileCount.y);
+    PairBuffers pairs(device_, entries), scratch(device_, entries);
+    push.count = entries;
+    commands.dispatch(emit_, {bins.bricks, lensBoxes_, offsets, pairs.keys, pairs.values}, push,
+                      emit_.gridFor(entries));
+    sort_.reserve(entries);
+    const bool inScratch =
+        &sort_.record(commands, pairs, scratch, entries, std::bit_width(lists - 1)) == &scratch;
+    PairBuffers& sorted = inScratch ? scratch : pairs;
+    Buffer start(device_, TexelFormat::r32ui, lists + 1);
+    commands.dispatch(start_, {sorted.keys, start}, LowerBoundPush{entries, lists + 1},
+                      start_.gridFor(lists + 1));
+    commands.run();
+    return {std::move(start), std::move(sorted.values)};
+}
+
+} // namespace slant

@@ -1,0 +1,69 @@
+#include "compute/output_passes.h"
+
+#include "reconstruct/plan.h"
+
+#include <algorithm>
+
+namespace slant {
+
+OutputPasses::OutputPasses(Device& device, const OutputPattern& pattern)
+    : device_(device), nearest_(device, "reconstruct"), visibility_(device, "visibility"),
+      pattern_(device, TexelFormat::rgba32ui, pattern.entries.size()),
+      counters_(device, TexelFormat::r32ui, kCounters), visibilityList_(device, TexelFormat::r32ui, 0),
+      holeList_(device, TexelFormat::r32ui, 0), overflowList_(device, TexelFormat::r32ui, 0) {
+    pattern_.upload(std::span(pattern.entries));
+}
+
+void OutputPasses::reserve(std::uint64_t samples) {
+    if (visibilityList_.texels() >= samples) return;
+    for (Buffer* list : {&visibilityList_, &holeList_, &overflowList_})
+        *list = Buffer(device_, TexelFormat::r32ui, samples);
+}
+
+OutputPasses::Counters OutputPasses::counters() const {
+    Counters words(kCounters);
+    counters_.download(std::span(words));
+    return words;
+}
+
+OutputPasses::Result OutputPasses::run(CommandList& commands, ListPasses& listPasses, const DeviceBins& bins,
+                                       const DeviceLists& lists, OutputPush push, const Buffer& dense,
+                                       int planes) {
+    reserve(dense.texels());
+    commands.fill(counters_, 0);
+    push.radiusPx = bins.grid.radiusPx;
+    push.count =
+        uint(planes) * uint(push.outputs.tileCount.x * push.outputs.tileCount.y) * kTileSize * kTileSize;
+    commands.dispatch(nearest_,
+                      {bins.positions, bins.radiances, bins.cellStart, bins.bricks, lists.start, lists.bricks,
+                       pattern_, dense, counters_, visibilityList_, overflowList_},
+                      push, nearest_.gridFor(push.count));
+    commands.run();
+
+    Result result;
+    result.visibility = push.count = counters()[kVisibilityCount];
+    const auto look = [&](const DeviceLists& in) {
+        commands.dispatch(visibility_,
+                          {bins.positions, bins.radiances, bins.cellStart, bins.bricks, in.start, in.bricks,
+                           pattern_, visibilityList_, dense, counters_, holeList_, overflowList_},
+                          push, visibility_.gridFor(push.count));
+        commands.run();
+        return counters()[kHoleCount];
+    };
+    result.widened = result.holes = look(lists);
+    for (int step = 0; step < kWidenings && result.holes > 0; ++step) {
+        push.radiusPx *= 2;
+        push.count = uint(result.holes);
+        std::swap(visibilityList_, holeList_);
+        const DeviceLists wide = listPasses.run(commands, bins, push, 2 * push.radiusPx);
+        const uint none = 0;
+        counters_.upload(std::span(&none, 1), kHoleCount);
+        result.holes = look(wide);
+    }
+    result.overflowed.resize(counters()[kOverflowCount]);
+    overflowList_.download(std::span(result.overflowed));
+    std::sort(result.overflowed.begin(), result.overflowed.end());
+    return result;
+}
+
+} // namespace slant

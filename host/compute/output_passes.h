@@ -1,0 +1,36 @@
+// Stages "reconstruct" and "visibility" on the device: the outputs of one chunk of lens groups over one band.
+#pragma once
+#include "compute/list_passes.h"
+
+#include <vector>
+
+namespace slant {
+
+class OutputPasses {
+public:
+    OutputPasses(Device& device, const OutputPattern& pattern);
+
+    /// What one chunk met.
+    struct Result {
+        std::uint64_t visibility = 0, widened = 0, holes = 0;
+        std::vector<uint> overflowed; ///< indices into dense that are still to be done, ascending
+    };
+
+    /// Fills `dense` (planes of region pixels); `lists` have a margin of 2 R. Runs on `commands`, which must
+    /// be empty, and leaves it empty.
+    Result run(CommandList& commands, ListPasses& listPasses, const DeviceBins& bins,
+               const DeviceLists& lists, OutputPush push, const Buffer& dense, int planes);
+
+private:
+    using Counters = std::vector<uint>;
+    void reserve(std::uint64_t samples);
+    Counters counters() const;
+
+    Device& device_;
+    Pass nearest_, visibility_;
+    Buffer pattern_;
+    Buffer counters_;
+    Buffer visibilityList_, holeList_, overflowList_;
+};
+
+} // namespace slant

@@ -1,0 +1,31 @@
+#version 460
+// Records in the order of their sorted keys, and 1 where a new brick begins.
+#extension GL_GOOGLE_include_directive : require
+#include "lib/invocation.glsl"
+#include "shared/reconstruct.h"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0) uniform utextureBuffer keys;
+layout(set = 0, binding = 1) uniform utextureBuffer indices;
+layout(set = 0, binding = 2) uniform textureBuffer samplePositions;
+layout(set = 0, binding = 3) uniform textureBuffer sampleRadiances;
+layout(set = 0, binding = 4, rgba32f) uniform writeonly imageBuffer positions;
+layout(set = 0, binding = 5, rgba32f) uniform writeonly imageBuffer radiances;
+layout(set = 0, binding = 6, r32ui) uniform writeonly uimageBuffer brickBegins;
+layout(push_constant) uniform Push { BinPush push; };
+
+void main() {
+    const uint i = linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
+    if (i > push.count) return;
+    if (i == push.count) { // so that the prefix sum ends with the number of bricks
+        imageStore(brickBegins, int(i), uvec4(0u));
+        return;
+    }
+    const int index = int(texelFetch(indices, int(i)).x);
+    imageStore(positions, int(i), texelFetch(samplePositions, index));
+    imageStore(radiances, int(i), texelFetch(sampleRadiances, index));
+    const uint cells = uint(push.grid.cellsPerBrick * push.grid.cellsPerBrick);
+    const uint brick = texelFetch(keys, int(i)).x / cells;
+    const bool begins = i == 0u || texelFetch(keys, int(i) - 1).x / cells != brick;
+    imageStore(brickBegins, int(i), uvec4(begins ? 1u : 0u));
+}

@@ -1,0 +1,25 @@
+#version 460
+// How many tiles can see a brick through a lens group; the prefix sum of it says where list_emit writes.
+#extension GL_GOOGLE_include_directive : require
+#include "lib/grid.glsl"
+#include "lib/invocation.glsl"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0) uniform utextureBuffer bricks;
+layout(set = 0, binding = 1) uniform textureBuffer lensBoxes;
+layout(set = 0, binding = 2, r32ui) uniform writeonly uimageBuffer counts;
+layout(push_constant) uniform Push { OutputPush push; };
+
+void main() {
+    const uint i = linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
+    if (i > push.count) return;
+    uint tiles = 0u;
+    if (i < push.count) {
+        const Brick brick = brickOf(texelFetch(bricks, int(i % push.brickTotal)));
+        const vec4 box = texelFetch(lensBoxes, int(push.firstGroup + i / push.brickTotal));
+        const ivec4 range = tilesSeeing(brick, push.grid, push.outputs, box, push.radiusPx);
+        const ivec2 size = max(range.zw - range.xy, ivec2(0));
+        tiles = uint(size.x * size.y);
+    }
+    imageStore(counts, int(i), uvec4(tiles));
+}

@@ -1,0 +1,32 @@
+#version 460
+// (list, brick) for every tile that can see a brick through a lens group, in the order of groups and bricks: sorted
+// stably by list, each list is ascending. One invocation an entry, so that large footprints are spread.
+#extension GL_GOOGLE_include_directive : require
+#include "lib/grid.glsl"
+#include "lib/invocation.glsl"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 0) uniform utextureBuffer bricks;
+layout(set = 0, binding = 1) uniform textureBuffer lensBoxes;
+layout(set = 0, binding = 2) uniform utextureBuffer offsets; // of (group, brick), and the total
+layout(set = 0, binding = 3, r32ui) uniform writeonly uimageBuffer lists;
+layout(set = 0, binding = 4, r32ui) uniform writeonly uimageBuffer listBricks;
+layout(push_constant) uniform Push { OutputPush push; };
+
+uint keyAt(uint i) { return texelFetch(offsets, int(i)).x; }
+#include "lib/lower_bound.glsl"
+
+void main() {
+    const uint i = linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
+    if (i >= push.count) return;
+    const uint pair = lowerBound(i + 1u, push.groupCount * push.brickTotal + 1u) - 1u;
+    const uint group = pair / push.brickTotal, brick = pair - group * push.brickTotal;
+    const vec4 box = texelFetch(lensBoxes, int(push.firstGroup + group));
+    const ivec4 range =
+        tilesSeeing(brickOf(texelFetch(bricks, int(brick))), push.grid, push.outputs, box, push.radiusPx);
+    const int place = int(i - keyAt(pair)), width = range.z - range.x;
+    const ivec2 tile = range.xy + ivec2(place % width, place / width);
+    const ivec2 tiles = push.outputs.tileCount;
+    imageStore(lists, int(i), uvec4((group * uint(tiles.y) + uint(tile.y)) * uint(tiles.x) + uint(tile.x)));
+    imageStore(listBricks, int(i), uvec4(brick));
+}

@@ -1,0 +1,46 @@
+#version 460
+// Planes of dense samples through the pixel filter into the film: one invocation a pixel. As
+// host/reconstruct/film_buffer.cpp.
+#extension GL_GOOGLE_include_directive : require
+#include "shared/reconstruct.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0) uniform textureBuffer dense;
+layout(set = 0, binding = 1) uniform textureBuffer weights;
+layout(set = 0, binding = 2, rgba32f) uniform imageBuffer film;
+layout(push_constant) uniform Push { FilterPush push; };
+
+/// Weight of a sample at subpixel q of the pixel `offset` pixels away, along one axis.
+float axisWeight(int tableBegin, int tableLength, int offset, int q) {
+    const int k = offset * kSubpixels + q - kSubpixels / 2;
+    const int index = k >= 0 ? k : -k - 1;
+    return index >= tableLength ? 0.0 : texelFetch(weights, tableBegin + index).x;
+}
+
+vec4 weighted(vec4 samp, ivec2 offset) {
+    if (samp.w < 0.0) return vec4(0.0);
+    const int code = int(samp.w);
+    const float weight = axisWeight(0, push.tableLength.x, offset.x, code / kSubpixels) *
+                         axisWeight(push.tableLength.x, push.tableLength.y, offset.y, code % kSubpixels);
+    return vec4(weight * samp.x, weight * samp.y, weight * samp.z, weight);
+}
+
+void main() {
+    const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy); // of the band
+    if (pixel.x >= push.filmSize.x || pixel.y >= push.rowCount) return;
+    const int place = (push.firstRow + pixel.y) * push.filmSize.x + pixel.x;
+    const ivec2 reach = push.reach, size = push.regionSize;
+    const int end = push.firstPlane + push.planeCount;
+    vec4 sum = imageLoad(film, place);
+    for (int block = push.firstPlane; block < end; block += kOutputsPerGroup) {
+        vec4 part = vec4(0.0);
+        for (int k = block; k < min(block + kOutputsPerGroup, end); ++k)
+            for (int dy = -reach.y; dy <= reach.y; ++dy) {
+                const int row = (k * size.y + pixel.y + reach.y + dy) * size.x + pixel.x + reach.x;
+                for (int dx = -reach.x; dx <= reach.x; ++dx)
+                    part += weighted(texelFetch(dense, row + dx), ivec2(dx, dy));
+            }
+        sum += part;
+    }
+    imageStore(film, place, sum);
+}

@@ -1,0 +1,67 @@
+#version 460
+// Dense samples that reconstruct.comp left: apparent surfaces within twice the base radius, front to back, and the
+// first that covers the output. What finds nothing is appended to a list for the next wider radius.
+#extension GL_GOOGLE_include_directive : require
+#include "lib/bins.glsl"
+#include "lib/grid.glsl"
+#include "lib/invocation.glsl"
+#include "lib/surface.glsl"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 7) uniform utextureBuffer slots;
+layout(set = 0, binding = 8, rgba32f) uniform writeonly imageBuffer dense;
+layout(set = 0, binding = 9, r32ui) uniform uimageBuffer counters;
+layout(set = 0, binding = 10, r32ui) uniform writeonly uimageBuffer holeList;
+layout(set = 0, binding = 11, r32ui) uniform writeonly uimageBuffer overflowList;
+
+struct Sweep {
+    bool running;
+    float baseRadius, surfaceGap;
+    Surface surface;
+};
+
+Brick brickAt(uint id) { return brickOf(texelFetch(bricks, int(id))); }
+
+void visit(Candidate candidate, inout Sweep sweep) {
+    const bool another = sweep.surface.count >= kMinSurfaceSamples &&
+                         candidate.slope > sweep.surface.slopeMax + sweep.surfaceGap;
+    if (another) {
+        if (covers(sweep.surface)) {
+            sweep.running = false;
+            return;
+        }
+        sweep.surface = noSurface();
+    }
+    addSample(sweep.surface, candidate, radianceAt(candidate.record), sweep.baseRadius);
+}
+#include "lib/search.glsl"
+
+void main() {
+    const uint invocation =
+        linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
+    if (invocation >= push.count) return;
+    const OutputLayout outputs = push.outputs;
+    const uint slot = texelFetch(slots, int(invocation)).x;
+    const uvec2 size = uvec2(outputs.regionSize);
+    const uint k = slot / (size.x * size.y), pixel = slot - k * (size.x * size.y);
+    const ivec2 position = ivec2(pixel % size.x, pixel / size.x);
+    const ivec2 tile = position / kTileSize;
+    const int index = push.firstOutput + int(k);
+    const Output o = outputAt(outputs.regionOrigin + position, index, texelFetch(pattern, index), push.lensCells,
+                              outputs.seed);
+    const int list =
+        (int(k) / kOutputsPerGroup * outputs.tileCount.y + tile.y) * outputs.tileCount.x + tile.x;
+    Sweep sweep = Sweep(true, push.radiusPx, push.grid.surfaceGap, noSurface());
+    const bool complete = forEachCandidate(push.grid, o, 2.0 * push.radiusPx, texelFetch(listStart, list).x,
+                                           texelFetch(listStart, list + 1).x, sweep);
+    const Surface s = sweep.surface;
+    if (!complete) {
+        imageStore(overflowList, int(imageAtomicAdd(counters, int(kOverflowCount), 1u)), uvec4(slot));
+    } else if (s.count == 0) {
+        imageStore(holeList, int(imageAtomicAdd(counters, int(kHoleCount), 1u)), uvec4(slot));
+        imageStore(dense, int(slot), vec4(0.0, 0.0, 0.0, -1.0));
+    } else {
+        const vec3 rgb = s.innerWeight > 0.0 ? s.innerSum / s.innerWeight : s.outerSum / s.outerWeight;
+        imageStore(dense, int(slot), vec4(rgb, o.positionCode));
+    }
+}
