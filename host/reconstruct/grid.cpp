@@ -13,10 +13,9 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// Measured best of 0.4 to 1.5 on 1 to 16 samples a pixel (tests/bench).
 constexpr float kCellPerRadius = 0.7f;
-constexpr float kBrickPx = 8;
-constexpr int kMaxCellsPerBrick = 32;
+constexpr float kBrickPx = 16;
+constexpr int kMaxCellsPerBrick = 64;
 constexpr float kBucketPerRadius = 1.5f;
-constexpr std::int64_t kMaxBricks = std::int64_t(1) << 21;
 /// Two surfaces this far apart in slope can hide each other (METHODS section 2: 0.1 px over a lens step of
 /// 1/sqrt(128)).
 constexpr float kSurfaceSlopeStep = 1.13f;
@@ -97,8 +96,8 @@ GridLayout chooseGrid(const LightField& field, const Rect& region, float marginP
         grid.brickCount = ivec2((high - grid.origin) * (grid.invCell / float(grid.cellsPerBrick))) + 1;
         grid.brickCount = glm::max(grid.brickCount, ivec2(1));
         grid.bucketCount = int((slopeMax - slopeMin) * grid.invBucket) + 1;
-        const auto area = std::int64_t(grid.brickCount.x) * grid.brickCount.y;
-        if (area * grid.bucketCount <= kMaxBricks) return grid;
+        const double cells = double(grid.brickCount.x) * grid.brickCount.y * grid.cellsPerBrick * grid.cellsPerBrick;
+        if (cells * grid.bucketCount < double(kNotBinned)) return grid;
         if (grid.bucketCount > 64)
             bucketWidth *= 2;
         else
