@@ -1,8 +1,8 @@
 // The compute path against the CPU path, stage by stage, to the bit.
 #include "compute/compute_reconstructor.h"
 #include "reconstruct/cpu_reconstructor.h"
-#include "synthetic.h"
-#include "vulkan_fixture.h"
+#include "support/synthetic.h"
+#include "support/vulkan_fixture.h"
 
 #include <cstring>
 
