@@ -10,10 +10,12 @@ namespace slant::commands {
 
 using AddCommand = void (*)(CLI::App& program);
 
+void addRender(CLI::App& program);
+void addReference(CLI::App& program);
 void addDiff(CLI::App& program);
 void addDevices(CLI::App& program);
 
 /// In the order in which `slant --help` lists them.
-inline constexpr std::initializer_list<AddCommand> kCommands = {addDiff, addDevices};
+inline constexpr std::initializer_list<AddCommand> kCommands = {addRender, addReference, addDiff, addDevices};
 
 } // namespace slant::commands

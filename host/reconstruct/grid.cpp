@@ -96,7 +96,8 @@ GridLayout chooseGrid(const LightField& field, const Rect& region, float marginP
         grid.brickCount = ivec2((high - grid.origin) * (grid.invCell / float(grid.cellsPerBrick))) + 1;
         grid.brickCount = glm::max(grid.brickCount, ivec2(1));
         grid.bucketCount = int((slopeMax - slopeMin) * grid.invBucket) + 1;
-        const double cells = double(grid.brickCount.x) * grid.brickCount.y * grid.cellsPerBrick * grid.cellsPerBrick;
+        const double cells =
+            double(grid.brickCount.x) * grid.brickCount.y * grid.cellsPerBrick * grid.cellsPerBrick;
         if (cells * grid.bucketCount < double(kNotBinned)) return grid;
         if (grid.bucketCount > 64)
             bucketWidth *= 2;

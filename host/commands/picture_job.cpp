@@ -1,0 +1,68 @@
+#include "commands/picture_job.h"
+
+#include "base/atomic_file.h"
+#include "commands/stats_file.h"
+#include "image/png.h"
+#include "scene/read_scene.h"
+
+namespace slant::commands {
+namespace {
+
+Metadata metadataOf(const nlohmann::ordered_json& details, const std::vector<StageStats>& stages) {
+    Metadata metadata;
+    for (const auto& [name, value] : details.items()) {
+        if (value.is_string())
+            metadata["slant:" + name] = value.get<std::string>();
+        else if (value.is_number_float())
+            metadata["slant:" + name] = value.get<float>();
+        else if (value.is_number_integer() && std::abs(value.get<double>()) < 2147483648.0)
+            metadata["slant:" + name] = value.get<int>();
+        else
+            metadata["slant:" + name] = value.dump();
+    }
+    for (const StageStats& stage : stages)
+        if (stage.seconds > 0) metadata["slant:seconds." + stage.name] = float(stage.seconds);
+    return metadata;
+}
+
+} // namespace
+
+void addPictureOptions(CLI::App& command, PictureOptions& options) {
+    command.add_option("SCENE", options.scene, "pbrt-v4 scene file")->required()->type_name("");
+    command.add_option("-o,--output", options.output, "picture to write (default: the film's filename)")
+        ->type_name("FILE.exr");
+    command.add_option("--png", options.png, "write an 8-bit sRGB picture too")->type_name("FILE.png");
+    addNumber<float>(command, "--exposure", options.exposure, -30, 30, "stops, of the PNG (default 0)");
+    command.add_flag("--float", options.float32, "32-bit floats in the EXR instead of half");
+    addSamplingOptions(command, options.common);
+    addRunOptions(command, options.common);
+}
+
+void checkOutputs(const PictureOptions& options) {
+    for (const std::string& path : {options.output, options.png, options.common.statsPath})
+        if (!path.empty()) checkWritable(path);
+}
+
+Scene readSceneFor(const PictureOptions& options, Monitor& monitor) {
+    Scene scene = readScene(options.scene, monitor);
+    if (options.common.spp) scene.pixelSamples = *options.common.spp;
+    if (const auto& crop = options.common.crop) {
+        scene.film.crop = crop->intersect({0, 0, scene.film.xResolution, scene.film.yResolution});
+        if (scene.film.crop.empty())
+            throw Error(ErrorCode::usage, fmt::format("--crop lies outside the film of {}x{} pixels",
+                                                      scene.film.xResolution, scene.film.yResolution));
+    }
+    return scene;
+}
+
+void writeOutputs(const PictureOptions& options, const Image& image, const nlohmann::ordered_json& details,
+                  const std::vector<StageStats>& stages, double totalSeconds) {
+    if (!options.output.empty())
+        writeExr(options.output, image, metadataOf(details, stages),
+                 options.float32 ? ExrPrecision::float32 : ExrPrecision::half);
+    if (!options.png.empty()) writePng(options.png, toSrgb8(image, options.exposure));
+    if (!options.common.statsPath.empty())
+        writeStats(options.common.statsPath, stages, totalSeconds, details);
+}
+
+} // namespace slant::commands

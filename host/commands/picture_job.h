@@ -1,0 +1,36 @@
+// What `render` and `reference` share: their options, the scene they read, and the pictures they write.
+#pragma once
+#include "base/monitor.h"
+#include "commands/options.h"
+#include "commands/terminal_monitor.h"
+#include "image/exr.h"
+#include "scene/scene.h"
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace slant::commands {
+
+struct PictureOptions {
+    CommonOptions common;
+    std::string scene;
+    std::string output;
+    std::string png;    ///< empty: none
+    float exposure = 0; ///< stops, of the PNG
+    bool float32 = false;
+};
+
+/// SCENE, -o, --png, --exposure, --float and the common options but those of the reconstruction.
+void addPictureOptions(CLI::App& command, PictureOptions& options);
+
+/// Throws Error(resources) for outputs that cannot be written, before any work is done.
+void checkOutputs(const PictureOptions& options);
+
+/// Reads the scene and applies --crop and --spp.
+Scene readSceneFor(const PictureOptions& options, Monitor& monitor);
+
+/// Writes EXR, PNG and statistics. `details` goes into the metadata of the EXR and into the statistics.
+void writeOutputs(const PictureOptions& options, const Image& image, const nlohmann::ordered_json& details,
+                  const std::vector<StageStats>& stages, double totalSeconds);
+
+} // namespace slant::commands

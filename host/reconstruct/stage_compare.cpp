@@ -1,0 +1,61 @@
+#include "reconstruct/stage_compare.h"
+
+#include <algorithm>
+
+namespace slant {
+namespace {
+
+/// FNV-1a over words (Fowler, Noll, Vo).
+std::uint64_t hashOf(std::span<const uint> words) {
+    std::uint64_t hash = 0xcbf29ce484222325u;
+    for (const uint word : words) hash = (hash ^ word) * 0x100000001b3u;
+    return hash;
+}
+
+template <typename Visit>
+void forEachBlock(std::span<const uint> words, Visit&& visit) {
+    for (std::size_t first = 0; first < words.size(); first += StageRecorder::kBlockWords)
+        visit(first, words.subspan(first, std::min(StageRecorder::kBlockWords, words.size() - first)));
+}
+
+} // namespace
+
+void StageRecorder::stage(const std::string& name, std::span<const uint> words) {
+    Stage& stage = stages_.emplace_back();
+    stage.name = name;
+    stage.words = words.size();
+    forEachBlock(words,
+                 [&](std::size_t, std::span<const uint> block) { stage.blocks.push_back(hashOf(block)); });
+}
+
+void StageComparer::stage(const std::string& name, std::span<const uint> words) {
+    const std::size_t index = next_++;
+    if (difference_) return;
+    if (index >= expected_.stages().size() || expected_.stages()[index].name != name ||
+        expected_.stages()[index].words != words.size()) {
+        const std::size_t expectedWords =
+            index < expected_.stages().size() ? expected_.stages()[index].words : 0;
+        difference_ = StageDifference{index, name, expectedWords, words.size(), 0, {}};
+        return;
+    }
+    const auto& blocks = expected_.stages()[index].blocks;
+    forEachBlock(words, [&](std::size_t first, std::span<const uint> block) {
+        if (difference_ || hashOf(block) == blocks[first / StageRecorder::kBlockWords]) return;
+        difference_ = StageDifference{index,        name,  words.size(),
+                                      words.size(), first, std::vector<uint>(block.begin(), block.end())};
+    });
+}
+
+std::optional<StageDifference> StageComparer::difference() const {
+    if (difference_ || next_ == expected_.stages().size()) return difference_;
+    const auto& missing = expected_.stages()[next_];
+    return StageDifference{next_, missing.name, missing.words, 0, 0, {}};
+}
+
+void StageReader::stage(const std::string&, std::span<const uint> words) {
+    if (next_++ != stage_ || firstWord_ >= words.size()) return;
+    const auto block = words.subspan(firstWord_, std::min(count_, words.size() - firstWord_));
+    words_.assign(block.begin(), block.end());
+}
+
+} // namespace slant
