@@ -6,13 +6,13 @@
 namespace slant {
 
 struct ThreadLimit::Impl {
-    tbb::global_control control;
+    explicit Impl(int threads)
+        : control(tbb::global_control::max_allowed_parallelism, std::size_t(threads)) {}
+    tbb::global_control control; ///< known to oneTBB by its address: must not be copied
 };
 
 ThreadLimit::ThreadLimit(int threads) {
-    if (threads > 0)
-        impl_ = std::make_unique<Impl>(
-            Impl{tbb::global_control(tbb::global_control::max_allowed_parallelism, std::size_t(threads))});
+    if (threads > 0) impl_ = std::make_unique<Impl>(threads);
 }
 
 ThreadLimit::~ThreadLimit() = default;

@@ -323,7 +323,8 @@ void Geometry::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occlu
         RTCRay16 query;
         alignas(64) int valid[kPacket];
         fillPacket(part, query, valid);
-        embree::occluded(impl_->world.scene.get(), valid, query, Coherence::coherent);
+        // Embree 3.13 hangs in its coherent occlusion test when an object is instanced.
+        embree::occluded(impl_->world.scene.get(), valid, query, Coherence::incoherent);
         for (std::size_t i = 0; i < part.size(); ++i) occluded[first + i] = valid[i] && query.tfar[i] < 0;
     }
 }

@@ -2,7 +2,11 @@
 #include "base/parallel.h"
 
 #include <atomic>
+#include <chrono>
 #include <gtest/gtest.h>
+#include <mutex>
+#include <set>
+#include <thread>
 #include <vector>
 
 namespace slant {
@@ -14,6 +18,21 @@ TEST(Error, pointsAtTheFile) {
     EXPECT_EQ(error.code(), ErrorCode::badInput);
     EXPECT_EQ((FileLocation{"a", 2, 0}.text()), "a:2");
     EXPECT_EQ((FileLocation{"a", 0, 0}.text()), "a");
+}
+
+TEST(ThreadLimit, holdsWhileItLives) {
+    for (int time = 0; time < 2; ++time) {
+        const ThreadLimit limit(1);
+        EXPECT_EQ(threadCount(), 1);
+        std::mutex mutex;
+        std::set<std::thread::id> threads;
+        parallelFor(0, 200, 1, [&](std::size_t, std::size_t) {
+            std::this_thread::sleep_for(std::chrono::microseconds(100));
+            const std::lock_guard lock(mutex);
+            threads.insert(std::this_thread::get_id());
+        });
+        EXPECT_EQ(threads.size(), 1u);
+    }
 }
 
 TEST(ParallelFor, visitsEveryIndexOnceAndPassesExceptionsOn) {
