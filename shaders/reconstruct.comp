@@ -18,7 +18,8 @@ struct Sweep {
     float invRadius, surfaceGap;
     vec3 sum;
     float weightSum, slopeMax;
-    uint quadrants;
+    int count;
+    Hull hull;
 };
 
 Brick brickAt(uint id) { return brickOf(texelFetch(bricks, int(id))); }
@@ -32,7 +33,8 @@ void visit(Candidate candidate, inout Sweep sweep) {
     sweep.sum += weight * radianceAt(candidate.record);
     sweep.weightSum += weight;
     sweep.slopeMax = max(sweep.slopeMax, candidate.slope);
-    sweep.quadrants |= 1u << ((candidate.offset.x < 0.0 ? 1u : 0u) + (candidate.offset.y < 0.0 ? 2u : 0u));
+    sweep.count += 1;
+    addPoint(sweep.hull, candidate.offset);
 }
 #include "lib/search.glsl"
 
@@ -43,25 +45,29 @@ void main() {
     const OutputLayout outputs = push.outputs;
     const GridLayout grid = push.grid;
     const uint tiles = uint(outputs.tileCount.x * outputs.tileCount.y);
-    const uint group = invocation / 64u;
-    const uint k = group / tiles, tile = group - k * tiles;
+    // Neighbouring lanes take the outputs of one lens group and pixel: their candidates are much the same.
+    const uint groupSize = uint(min(kOutputsPerGroup, outputs.outputsPerPixel));
+    const uint list = invocation / (64u * groupSize), group = list / tiles, tile = list - group * tiles;
+    const uint k = group * groupSize + invocation % groupSize;
+    const uint pixel = invocation / groupSize & 63u;
     const ivec2 corner = kTileSize * ivec2(tile % uint(outputs.tileCount.x), tile / uint(outputs.tileCount.x));
-    const ivec2 position = corner + ivec2(invocation & 7u, (invocation >> 3) & 7u);
+    const ivec2 position = corner + ivec2(pixel & 7u, pixel >> 3);
     if (position.x >= outputs.regionSize.x || position.y >= outputs.regionSize.y) return;
 
     const int index = push.firstOutput + int(k);
     const Output o = outputAt(outputs.regionOrigin + position, index, texelFetch(pattern, index), push.lensCells,
                               outputs.seed);
-    const int list = int(k / uint(kOutputsPerGroup) * tiles + tile);
-    Sweep sweep = Sweep(true, 1.0 / grid.radiusPx, grid.surfaceGap, vec3(0.0), 0.0, -kInfinity, 0u);
-    const bool complete = forEachCandidate(grid, o, grid.radiusPx, texelFetch(listStart, list).x,
-                                           texelFetch(listStart, list + 1).x, sweep);
+    Sweep sweep = Sweep(true, 1.0 / grid.radiusPx, grid.surfaceGap, vec3(0.0), 0.0, -kInfinity, 0, noHull());
+    const bool complete = forEachCandidate(grid, o, grid.radiusPx, texelFetch(listStart, int(list)).x,
+                                           texelFetch(listStart, int(list) + 1).x, sweep);
     const uint slot = (k * uint(outputs.regionSize.y) + uint(position.y)) * uint(outputs.regionSize.x) + uint(position.x);
     if (!complete) {
         imageStore(overflowList, int(imageAtomicAdd(counters, int(kOverflowCount), 1u)), uvec4(slot));
         return;
     }
-    if (sweep.weightSum > 0.0 && (sweep.running || sweep.quadrants == 15u))
+    const bool taken =
+        sweep.running ? sweep.weightSum > 0.0 : sweep.count >= kMinSurfaceSamples && surrounds(sweep.hull);
+    if (taken)
         imageStore(dense, int(slot), vec4(sweep.sum / sweep.weightSum, o.positionCode));
     else
         imageStore(visibilityList, int(imageAtomicAdd(counters, int(kVisibilityCount), 1u)), uvec4(slot));

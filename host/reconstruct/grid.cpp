@@ -59,7 +59,7 @@ Bounds boundsOf(const LightField& field, const Rect& region, float marginPx) {
 } // namespace
 
 float emptyCircleRadius(int samplesPerPixel) {
-    return 2.f / std::sqrt(float(samplesPerPixel));
+    return 1.7f / std::sqrt(float(samplesPerPixel));
 }
 
 bool reaches(const LightFieldSample& s, const Rect& region, float marginPx) {

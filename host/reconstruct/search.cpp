@@ -54,6 +54,23 @@ int forEachCandidate(const SearchContext& context, const Output& output, float r
     return iterations;
 }
 
+/// Whether the output lies inside the convex hull of samples, one at a time: it does where, seen from it, those
+/// above span directions beyond those below on both sides.
+struct Hull {
+    vec2 upper{kInfinity, -kInfinity}; ///< least and greatest x/y of samples with y >= 0
+    vec2 lower{kInfinity, -kInfinity}; ///< ... with y < 0
+};
+
+void addPoint(Hull& hull, vec2 offset) {
+    const float ratio = offset.x / offset.y;
+    if (offset.y >= 0)
+        hull.upper = vec2(glm::min(hull.upper.x, ratio), glm::max(hull.upper.y, ratio));
+    else
+        hull.lower = vec2(glm::min(hull.lower.x, ratio), glm::max(hull.lower.y, ratio));
+}
+
+bool surrounds(const Hull& hull) { return hull.upper.y > hull.lower.x && hull.upper.x < hull.lower.y; }
+
 vec3 radianceOf(const SearchContext& context, const Candidate& candidate) {
     return vec3(context.bins.radiances[candidate.record]);
 }
@@ -65,7 +82,8 @@ Reconstructed reconstructNearest(const SearchContext& context, const Output& out
     const float invRadius = 1 / grid.radiusPx;
     vec3 sum(0);
     float weightSum = 0, slopeMax = -kInfinity;
-    uint quadrants = 0;
+    int count = 0;
+    Hull hull;
     bool another = false; ///< there is a surface behind
     Reconstructed result;
     result.iterations = forEachCandidate(context, output, grid.radiusPx, [&](const Candidate& candidate) {
@@ -75,10 +93,11 @@ Reconstructed reconstructNearest(const SearchContext& context, const Output& out
         sum += weight * radianceOf(context, candidate);
         weightSum += weight;
         slopeMax = glm::max(slopeMax, candidate.slope);
-        quadrants |= 1u << ((candidate.offset.x < 0 ? 1 : 0) + (candidate.offset.y < 0 ? 2 : 0));
+        count += 1;
+        addPoint(hull, candidate.offset);
         return true;
     });
-    const bool taken = weightSum > 0 && (!another || quadrants == 15u);
+    const bool taken = another ? count >= kMinSurfaceSamples && surrounds(hull) : weightSum > 0;
     result.outcome = taken ? Outcome::resolved : Outcome::needsVisibility;
     if (taken) result.rgb = sum / weightSum;
     return result;
@@ -92,8 +111,7 @@ struct Surface {
     float slopeMax = -kInfinity;
     vec3 innerSum{0}, outerSum{0}; ///< tents over the base radius and over twice that
     float innerWeight = 0, outerWeight = 0;
-    vec2 upper{kInfinity, -kInfinity}; ///< least and greatest x/y of samples with y >= 0
-    vec2 lower{kInfinity, -kInfinity}; ///< ... with y < 0
+    Hull hull;
 };
 
 void addSample(Surface& surface, const Candidate& candidate, const vec3& rgb, float baseRadius) {
@@ -105,16 +123,12 @@ void addSample(Surface& surface, const Candidate& candidate, const vec3& rgb, fl
     surface.innerWeight += inner;
     surface.outerSum += outer * rgb;
     surface.outerWeight += outer;
-    const float ratio = candidate.offset.x / candidate.offset.y;
-    if (candidate.offset.y >= 0)
-        surface.upper = vec2(glm::min(surface.upper.x, ratio), glm::max(surface.upper.y, ratio));
-    else
-        surface.lower = vec2(glm::min(surface.lower.x, ratio), glm::max(surface.lower.y, ratio));
+    addPoint(surface.hull, candidate.offset);
 }
 
 /// The output lies inside the hull of the surface's samples, at least one of them within the base radius.
 bool covers(const Surface& s) {
-    return s.innerWeight > 0 && s.upper.y > s.lower.x && s.upper.x < s.lower.y;
+    return s.innerWeight > 0 && surrounds(s.hull);
 }
 
 } // namespace

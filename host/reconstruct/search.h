@@ -23,8 +23,8 @@ struct SearchContext {
     std::span<const uint> bricks;
 };
 
-/// The front-most apparent surface within R, tent-filtered, where it is the only one or has samples in all
-/// four quadrants around the output. Anything else needs resolveVisibility.
+/// The front-most apparent surface within R, tent-filtered, where it is the only one or its samples
+/// surround the output. Anything else needs resolveVisibility.
 Reconstructed reconstructNearest(const SearchContext& context, const Output& output);
 
 /// Splits the samples within twice `baseRadius` into apparent surfaces and takes the first, front to back,

@@ -10,4 +10,21 @@ struct Candidate {
     float slope;
     uint record;
 };
+
+/// Whether an output lies inside the convex hull of samples.
+struct Hull {
+    vec2 upper; // least and greatest x/y of samples with y >= 0
+    vec2 lower; // ... with y < 0
+};
+
+Hull noHull() { return Hull(vec2(kInfinity, -kInfinity), vec2(kInfinity, -kInfinity)); }
+
+void addPoint(inout Hull hull, vec2 offset) {
+    const float ratio = offset.x / offset.y;
+    const bool above = offset.y >= 0.0;
+    hull.upper = above ? vec2(min(hull.upper.x, ratio), max(hull.upper.y, ratio)) : hull.upper;
+    hull.lower = above ? hull.lower : vec2(min(hull.lower.x, ratio), max(hull.lower.y, ratio));
+}
+
+bool surrounds(Hull hull) { return hull.upper.y > hull.lower.x && hull.upper.x < hull.lower.y; }
 #endif

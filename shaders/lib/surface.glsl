@@ -8,13 +8,11 @@ struct Surface {
     float slopeMax;
     vec3 innerSum, outerSum; // tents over the base radius and over twice that
     float innerWeight, outerWeight;
-    vec2 upper; // least and greatest x/y of samples with y >= 0
-    vec2 lower; // ... with y < 0
+    Hull hull;
 };
 
 Surface noSurface() {
-    return Surface(0, -kInfinity, vec3(0.0), vec3(0.0), 0.0, 0.0, vec2(kInfinity, -kInfinity),
-                   vec2(kInfinity, -kInfinity));
+    return Surface(0, -kInfinity, vec3(0.0), vec3(0.0), 0.0, 0.0, noHull());
 }
 
 void addSample(inout Surface surface, Candidate candidate, vec3 rgb, float baseRadius) {
@@ -26,15 +24,9 @@ void addSample(inout Surface surface, Candidate candidate, vec3 rgb, float baseR
     surface.innerWeight += inner;
     surface.outerSum += outer * rgb;
     surface.outerWeight += outer;
-    const float ratio = candidate.offset.x / candidate.offset.y;
-    if (candidate.offset.y >= 0.0)
-        surface.upper = vec2(min(surface.upper.x, ratio), max(surface.upper.y, ratio));
-    else
-        surface.lower = vec2(min(surface.lower.x, ratio), max(surface.lower.y, ratio));
+    addPoint(surface.hull, candidate.offset);
 }
 
 /// The output lies inside the hull of the surface's samples, at least one of them within the base radius.
-bool covers(Surface s) {
-    return s.innerWeight > 0.0 && s.upper.y > s.lower.x && s.upper.x < s.lower.y;
-}
+bool covers(Surface s) { return s.innerWeight > 0.0 && surrounds(s.hull); }
 #endif

@@ -8,7 +8,7 @@ SLANT_SHARED_BEGIN
 /// Outputs are reconstructed in square tiles of this many pixels a side; one workgroup is one tile.
 SLANT_SHARED_CONSTANT int kTileSize = 8;
 /// Outputs of a pixel that share a lens group, and so a list of bricks.
-SLANT_SHARED_CONSTANT int kOutputsPerGroup = 4;
+SLANT_SHARED_CONSTANT int kOutputsPerGroup = 8;
 /// A surface of fewer samples than this is merged into the next one behind it.
 SLANT_SHARED_CONSTANT int kMinSurfaceSamples = 4;
 /// Positions of outputs inside their pixel are multiples of 1 / kSubpixels (plus half a step).
