@@ -1,6 +1,5 @@
 #include "compute/pass.h"
 
-#include "compute/exact_arithmetic.h"
 #include "compute/vulkan.h"
 
 #include <algorithm>
@@ -31,9 +30,8 @@ vk::raii::Pipeline makePipeline(const Device::Impl& device, const ShaderModule& 
         entries.emplace_back(i, std::uint32_t(i * sizeof(std::uint32_t)), sizeof(std::uint32_t));
     const vk::SpecializationInfo specialization(std::uint32_t(entries.size()), entries.data(),
                                                 constants.size_bytes(), constants.data());
-    const std::vector<std::uint32_t> words = withExactArithmetic(module);
     const vk::raii::ShaderModule shader(
-        device.device, vk::ShaderModuleCreateInfo({}, words.size() * sizeof(words[0]), words.data()));
+        device.device, vk::ShaderModuleCreateInfo({}, module.words.size_bytes(), module.words.data()));
     const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *shader, "main",
                                                   &specialization);
     return {device.device, nullptr, vk::ComputePipelineCreateInfo({}, stage, *layout)};

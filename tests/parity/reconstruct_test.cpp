@@ -18,7 +18,7 @@ struct Stages : StageObserver {
     std::vector<std::vector<uint>> contents;
 };
 
-class ReconstructParity : public VulkanTest {
+class ReconstructParity : public test::VulkanTest {
 protected:
     static Stages run(Reconstructor& reconstructor, const LightField& field,
                       const ReconstructOptions& options) {

@@ -2,6 +2,7 @@
 // fails on a shader whose struct it does not know.
 #include "compute/spirv.h"
 #include "shared/radix.h"
+#include "shared/reconstruct.h"
 #include "shared/scan.h"
 
 #include <algorithm>
@@ -32,6 +33,16 @@ const Layout kLayouts[] = {
     STRUCT(ScanPush, MEMBER(ScanPush, count), MEMBER(ScanPush, hasOffsets)),
     STRUCT(RadixPush, MEMBER(RadixPush, count), MEMBER(RadixPush, chunks), MEMBER(RadixPush, shift),
            MEMBER(RadixPush, mask)),
+    STRUCT(BinPush, MEMBER(BinPush, grid), MEMBER(BinPush, regionMin), MEMBER(BinPush, regionMax),
+           MEMBER(BinPush, marginPx), MEMBER(BinPush, firstSample), MEMBER(BinPush, count),
+           MEMBER(BinPush, brickTotal)),
+    STRUCT(OutputPush, MEMBER(OutputPush, grid), MEMBER(OutputPush, outputs), MEMBER(OutputPush, lensCells),
+           MEMBER(OutputPush, firstOutput), MEMBER(OutputPush, count), MEMBER(OutputPush, firstGroup),
+           MEMBER(OutputPush, groupCount), MEMBER(OutputPush, brickTotal), MEMBER(OutputPush, radiusPx)),
+    STRUCT(FilterPush, MEMBER(FilterPush, regionSize), MEMBER(FilterPush, reach),
+           MEMBER(FilterPush, tableLength), MEMBER(FilterPush, filmSize), MEMBER(FilterPush, firstRow),
+           MEMBER(FilterPush, rowCount), MEMBER(FilterPush, firstPlane), MEMBER(FilterPush, planeCount)),
+    STRUCT(LowerBoundPush, MEMBER(LowerBoundPush, keyCount), MEMBER(LowerBoundPush, count)),
 };
 
 /// How a shader's push constants differ from the struct of C++; empty if they do not.
