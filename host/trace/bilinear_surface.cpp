@@ -8,7 +8,8 @@
 namespace slant {
 namespace {
 
-/// Patches reach this much farther than their edges, so that no ray slips between neighbours through rounding.
+/// Patches reach this much farther than their edges, so that no ray slips between neighbours through
+/// rounding.
 constexpr double kSeam = 1e-9;
 
 /// Real roots of a u^2 + b u + c = 0, without cancellation; false if there are none.
@@ -35,6 +36,52 @@ glm::dvec3 turned(glm::dvec3 vector, glm::dvec3 from, glm::dvec3 to) {
 }
 
 } // namespace
+
+BilinearSurface::BilinearSurface(const Shape& shape, const Mesh& mesh) : MeshSurface(shape, mesh, 4) {
+    for (std::uint32_t i = 0; i < primitiveCount(); ++i)
+        if (!isFlat(i)) return;
+    halves_.reserve(std::size_t(primitiveCount()) * 6);
+    for (std::uint32_t i = 0; i < primitiveCount(); ++i) {
+        const std::uint32_t* v = corner(i);
+        halves_.insert(halves_.end(), {v[0], v[1], v[3], v[0], v[3], v[2]});
+    }
+}
+
+/// Flat but for the rounding of its vertices, and convex.
+bool BilinearSurface::isFlat(std::uint32_t primitive) const {
+    const std::uint32_t* v = corner(primitive);
+    const glm::dvec3 ring[4] = {positions_[v[0]], positions_[v[1]], positions_[v[3]], positions_[v[2]]};
+    glm::dvec3 normal = glm::cross(ring[2] - ring[0], ring[3] - ring[1]), size(0);
+    const double length = glm::length(normal);
+    if (!(length > 0)) return false;
+    normal /= length;
+    for (glm::dvec3 p : ring) size = glm::max(size, glm::abs(p));
+    if (std::abs(glm::dot(normal, ring[1] - ring[0])) >
+        double(gammaBound(4)) * glm::dot(glm::abs(normal), size))
+        return false;
+    for (int k = 0; k < 4; ++k)
+        if (!(glm::dot(glm::cross(ring[(k + 1) % 4] - ring[k], ring[(k + 2) % 4] - ring[(k + 1) % 4]),
+                       normal) > 0))
+            return false;
+    return true;
+}
+
+Box BilinearSurface::bounds(std::uint32_t primitive) const {
+    Box box;
+    for (std::uint32_t k = 0; k < corners_; ++k) box.extend(positions_[corner(primitive)[k]]);
+    return box;
+}
+
+SurfaceLocation BilinearSurface::locate(const FoundHit& found, const SurfaceRay& ray) const {
+    auto location = intersect(meshPrimitive(found.primitive), ray, std::numeric_limits<double>::infinity());
+    if (location) return *location;
+    // Embree met by a hair what is missed here: its rays of instances are rounded, and so are triangles'
+    // edges.
+    if (!flat()) return {found.t, found.local};
+    glm::vec2 b = found.barycentric; // of (0, 0), (1, 0), (1, 1) or (0, 0), (1, 1), (0, 1)
+    return {found.t,
+            found.primitive % 2 == 0 ? glm::dvec3(b.x + b.y, b.y, 0) : glm::dvec3(b.x, b.x + b.y, 0)};
+}
 
 // Reshetov, "Cool Patches: A Geometric Approach to Ray/Bilinear Patch Intersections", 2019: the straight
 // lines of constant u that the ray's line meets are the roots of a quadratic.
@@ -87,7 +134,10 @@ void BilinearSurface::describe(std::uint32_t primitive, const SurfaceLocation& a
                         Vector(values[corners[3]]));
     };
     hit.position = apply(interpolate, positions_, glm::dvec3());
-    hit.positionError = gammaBound(2) * glm::abs(hit.position);
+    // Embree works in float on the vertices of triangles, so their size bounds its error.
+    auto sizes = [&](auto... values) { return interpolate(glm::abs(values)...); };
+    hit.positionError = flat() ? gammaBound(9) * glm::vec3(apply(sizes, positions_, glm::dvec3()))
+                               : gammaBound(2) * glm::abs(hit.position);
     glm::dvec3 dpdu = apply(alongU, positions_, glm::dvec3()), dpdv = apply(alongV, positions_, glm::dvec3());
     glm::dvec3 normal = glm::cross(dpdu, dpdv);
     double length = glm::length(normal);

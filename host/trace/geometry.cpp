@@ -49,38 +49,23 @@ struct Group {
     ScenePointer scene;
 };
 
-/// What Embree says of a hit. `local` holds for user geometries only.
-struct Found {
-    unsigned instance, geometry, primitive;
-    float t;
-    glm::vec3 local;
-};
-
 struct Instance {
     const Group* group;
     glm::dmat3 linear, inverseLinear, normalMatrix;
     glm::dvec3 offset;
 };
 
-std::unique_ptr<Surface> makeSurface(const Shape& shape, const std::vector<Mesh>& meshes) {
-    if (shape.worldFromObject.moves()) throw badInput(shape.location, "moving shapes are not supported");
-    if (shape.kind != ShapeKind::mesh) return std::make_unique<QuadricSurface>(shape);
-    const Mesh& mesh = meshes.at(std::size_t(shape.meshIndex));
-    if (mesh.kind == Mesh::Kind::triangles) return std::make_unique<TriangleSurface>(shape, mesh);
-    return std::make_unique<BilinearSurface>(shape, mesh);
-}
-
 // ---------------------------------------------------------------- user geometries
 
 void userBounds(const RTCBoundsFunctionArguments* arguments) {
-    const auto& surface = *static_cast<const Surface*>(arguments->geometryUserPtr);
+    const auto& surface = *static_cast<const UserSurface*>(arguments->geometryUserPtr);
     Box box = surface.bounds(arguments->primID);
     RTCBounds& out = *arguments->bounds_o;
     out.lower_x = box.min.x, out.lower_y = box.min.y, out.lower_z = box.min.z;
     out.upper_x = box.max.x, out.upper_y = box.max.y, out.upper_z = box.max.z;
 }
 
-std::optional<SurfaceLocation> meetRay(const Surface& surface, unsigned primitive, RTCRayN* rays,
+std::optional<SurfaceLocation> meetRay(const UserSurface& surface, unsigned primitive, RTCRayN* rays,
                                        unsigned size, unsigned i) {
     SurfaceRay ray{
         {RTCRayN_org_x(rays, size, i), RTCRayN_org_y(rays, size, i), RTCRayN_org_z(rays, size, i)},
@@ -89,7 +74,7 @@ std::optional<SurfaceLocation> meetRay(const Surface& surface, unsigned primitiv
 }
 
 void userIntersect(const RTCIntersectFunctionNArguments* arguments) {
-    const auto& surface = *static_cast<const Surface*>(arguments->geometryUserPtr);
+    const auto& surface = *static_cast<const UserSurface*>(arguments->geometryUserPtr);
     const unsigned size = arguments->N;
     RTCRayN* rays = RTCRayHitN_RayN(arguments->rayhit, size);
     RTCHitN* hits = RTCRayHitN_HitN(arguments->rayhit, size);
@@ -108,33 +93,55 @@ void userIntersect(const RTCIntersectFunctionNArguments* arguments) {
 }
 
 void userOccluded(const RTCOccludedFunctionNArguments* arguments) {
-    const auto& surface = *static_cast<const Surface*>(arguments->geometryUserPtr);
+    const auto& surface = *static_cast<const UserSurface*>(arguments->geometryUserPtr);
     for (unsigned i = 0; i < arguments->N; ++i)
         if (arguments->valid[i] && meetRay(surface, arguments->primID, arguments->ray, arguments->N, i))
             RTCRayN_tfar(arguments->ray, arguments->N, i) = -std::numeric_limits<float>::infinity();
 }
 
-GeometryPointer makeUserGeometry(RTCDevice device, const Surface& surface) {
+GeometryPointer makeUserGeometry(RTCDevice device, const UserSurface& surface) {
     GeometryPointer geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER));
     check(device);
     rtcSetGeometryUserPrimitiveCount(geometry.get(), surface.primitiveCount());
-    rtcSetGeometryUserData(geometry.get(), const_cast<Surface*>(&surface));
+    rtcSetGeometryUserData(geometry.get(), const_cast<UserSurface*>(&surface));
     rtcSetGeometryBoundsFunction(geometry.get(), userBounds, nullptr);
     rtcSetGeometryIntersectFunction(geometry.get(), userIntersect);
     rtcSetGeometryOccludedFunction(geometry.get(), userOccluded);
     return geometry;
 }
 
-GeometryPointer makeTriangleGeometry(RTCDevice device, const TriangleSurface& surface) {
+GeometryPointer makeTriangleGeometry(RTCDevice device, const MeshSurface& surface) {
     GeometryPointer geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
     check(device);
     const auto& positions = surface.paddedPositions();
     rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, positions.data(),
                                0, sizeof(glm::vec3), positions.size() - 1);
     rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                               surface.indices().data(), 0, 3 * sizeof(std::uint32_t),
-                               surface.primitiveCount());
+                               surface.triangles().data(), 0, 3 * sizeof(std::uint32_t),
+                               surface.triangles().size() / 3);
     return geometry;
+}
+
+struct MadeSurface {
+    std::unique_ptr<Surface> surface;
+    GeometryPointer geometry; ///< uses the surface's memory
+};
+
+MadeSurface makeSurface(const Shape& shape, const std::vector<Mesh>& meshes, RTCDevice device) {
+    if (shape.worldFromObject.moves()) throw badInput(shape.location, "moving shapes are not supported");
+    auto user = [&](auto surface) {
+        GeometryPointer geometry = makeUserGeometry(device, *surface);
+        return MadeSurface{std::move(surface), std::move(geometry)};
+    };
+    auto triangles = [&](auto surface) {
+        GeometryPointer geometry = makeTriangleGeometry(device, *surface);
+        return MadeSurface{std::move(surface), std::move(geometry)};
+    };
+    if (shape.kind != ShapeKind::mesh) return user(std::make_unique<QuadricSurface>(shape));
+    const Mesh& mesh = meshes.at(std::size_t(shape.meshIndex));
+    if (mesh.kind == Mesh::Kind::triangles) return triangles(std::make_unique<TriangleSurface>(shape, mesh));
+    auto patches = std::make_unique<BilinearSurface>(shape, mesh);
+    return patches->flat() ? triangles(std::move(patches)) : user(std::move(patches));
 }
 
 void attach(RTCDevice device, RTCScene scene, RTCGeometry geometry, std::size_t id) {
@@ -156,7 +163,8 @@ struct Geometry::Impl {
     explicit Impl(const Scene& scene);
     void build(Group& group, const std::vector<Shape>& shapes, const std::vector<Mesh>& meshes, bool emits);
     void addInstance(const ObjectInstance& instance);
-    void resolve(const Ray& ray, const Found& found, SurfaceHit& hit) const;
+    void resolve(const Ray& ray, unsigned instanceId, unsigned geometryId, const FoundHit& found,
+                 SurfaceHit& hit) const;
 };
 
 Geometry::Impl::Impl(const Scene& scene) : device(rtcNewDevice(nullptr)) {
@@ -182,12 +190,9 @@ void Geometry::Impl::build(Group& group, const std::vector<Shape>& shapes, const
     int emitters = 0;
     for (const Shape& shape : shapes) {
         int emitter = emits && shape.areaLightIndex >= 0 ? emitters++ : -1;
-        group.entries.push_back({makeSurface(shape, meshes), shape.materialIndex, emitter});
-        const Surface& surface = *group.entries.back().surface;
-        const auto* triangles = dynamic_cast<const TriangleSurface*>(&surface);
-        GeometryPointer geometry = triangles ? makeTriangleGeometry(device.get(), *triangles)
-                                             : makeUserGeometry(device.get(), surface);
-        attach(device.get(), group.scene.get(), geometry.get(), group.entries.size() - 1);
+        MadeSurface made = makeSurface(shape, meshes, device.get());
+        group.entries.push_back({std::move(made.surface), shape.materialIndex, emitter});
+        attach(device.get(), group.scene.get(), made.geometry.get(), group.entries.size() - 1);
     }
 }
 
@@ -227,22 +232,21 @@ void transformHit(const Instance& instance, SurfaceHit& hit) {
 
 } // namespace
 
-void Geometry::Impl::resolve(const Ray& ray, const Found& found, SurfaceHit& hit) const {
-    const Instance* instance = found.instance == RTC_INVALID_GEOMETRY_ID
-                                   ? nullptr
-                                   : &instances[found.instance - world.entries.size()];
-    const Entry& entry = (instance ? *instance->group : world).entries[found.geometry];
+void Geometry::Impl::resolve(const Ray& ray, unsigned instanceId, unsigned geometryId, const FoundHit& found,
+                             SurfaceHit& hit) const {
+    const Instance* instance =
+        instanceId == RTC_INVALID_GEOMETRY_ID ? nullptr : &instances[instanceId - world.entries.size()];
+    const Entry& entry = (instance ? *instance->group : world).entries[geometryId];
     SurfaceRay local{ray.origin, ray.direction};
     if (instance)
         local = {instance->inverseLinear * (local.origin - instance->offset),
                  instance->inverseLinear * local.direction};
-    auto location = entry.surface->intersect(found.primitive, local, std::numeric_limits<double>::infinity());
-    // Embree rounds rays of instances to float: what it met by a hair may be missed here.
-    if (!location) location = SurfaceLocation{found.t, found.local};
-    entry.surface->describe(found.primitive, *location, hit);
-    hit.t = float(location->t);
+    const SurfaceLocation location = entry.surface->locate(found, local);
+    const std::uint32_t primitive = entry.surface->meshPrimitive(found.primitive);
+    entry.surface->describe(primitive, location, hit);
+    hit.t = float(location.t);
     hit.materialIndex = entry.materialIndex;
-    hit.emitter = {entry.emitter, entry.emitter < 0 ? 0 : int(found.primitive)};
+    hit.emitter = {entry.emitter, entry.emitter < 0 ? 0 : int(primitive)};
     if (instance) transformHit(*instance, hit);
 }
 
@@ -283,7 +287,8 @@ bool Geometry::intersect(const Ray& ray, SurfaceHit& hit) const {
     embree::intersect(impl_->world.scene.get(), query, Coherence::incoherent);
     const RTCHit& h = query.hit;
     if (h.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-    impl_->resolve(ray, {h.instID[0], h.geomID, h.primID, query.ray.tfar, {h.Ng_x, h.Ng_y, h.Ng_z}}, hit);
+    impl_->resolve(ray, h.instID[0], h.geomID,
+                   {h.primID, query.ray.tfar, {h.u, h.v}, {h.Ng_x, h.Ng_y, h.Ng_z}}, hit);
     return true;
 }
 
@@ -306,13 +311,9 @@ void Geometry::intersect(std::span<const Ray> rays, std::span<SurfaceHit> hits) 
         for (std::size_t i = 0; i < part.size(); ++i) {
             SurfaceHit& hit = hits[first + i] = SurfaceHit();
             if (h.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
-            impl_->resolve(part[i],
-                           {h.instID[0][i],
-                            h.geomID[i],
-                            h.primID[i],
-                            query.ray.tfar[i],
-                            {h.Ng_x[i], h.Ng_y[i], h.Ng_z[i]}},
-                           hit);
+            FoundHit found{
+                h.primID[i], query.ray.tfar[i], {h.u[i], h.v[i]}, {h.Ng_x[i], h.Ng_y[i], h.Ng_z[i]}};
+            impl_->resolve(part[i], h.instID[0][i], h.geomID[i], found, hit);
         }
     }
 }

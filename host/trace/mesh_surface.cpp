@@ -8,7 +8,7 @@ namespace slant {
 
 MeshSurface::MeshSurface(const Shape& shape, const Mesh& mesh, std::uint32_t corners)
     : mesh_(mesh), corners_(corners), flip_(flipsNormals(shape)) {
-    if (mesh.indices.size() % corners != 0 || mesh.indices.size() / corners > 0xffffffffu ||
+    if (mesh.indices.size() % corners != 0 || mesh.indices.size() / corners > 0x7fffffffu ||
         std::any_of(mesh.indices.begin(), mesh.indices.end(),
                     [&](std::uint32_t index) { return index >= mesh.positions.size(); }))
         throw badInput(shape.location, "the mesh's indices do not fit its {} vertices",
@@ -30,12 +30,6 @@ MeshSurface::MeshSurface(const Shape& shape, const Mesh& mesh, std::uint32_t cor
             if (!normals_.empty()) normals_[i] = side * (normalMatrix * glm::dvec3(mesh.normals[i]));
         }
     });
-}
-
-Box MeshSurface::bounds(std::uint32_t primitive) const {
-    Box box;
-    for (std::uint32_t k = 0; k < corners_; ++k) box.extend(positions_[corner(primitive)[k]]);
-    return box;
 }
 
 } // namespace slant

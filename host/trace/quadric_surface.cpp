@@ -91,6 +91,12 @@ std::optional<SurfaceLocation> QuadricSurface::intersectDisk(const SurfaceRay& r
     return SurfaceLocation{t, p};
 }
 
+SurfaceLocation QuadricSurface::locate(const FoundHit& found, const SurfaceRay& ray) const {
+    // Embree rounds rays of instances to float: what it met by a hair may be missed here.
+    return intersect(0, ray, std::numeric_limits<double>::infinity())
+        .value_or(SurfaceLocation{found.t, found.local});
+}
+
 void QuadricSurface::describe(std::uint32_t, const SurfaceLocation& at, SurfaceHit& hit) const {
     glm::dvec3 p = at.local, normal;
     double phi = angleAround(p);

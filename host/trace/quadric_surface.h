@@ -4,7 +4,7 @@
 
 namespace slant {
 
-class QuadricSurface final : public Surface {
+class QuadricSurface final : public Surface, public UserSurface {
 public:
     explicit QuadricSurface(const Shape& shape);
 
@@ -12,6 +12,7 @@ public:
     Box bounds(std::uint32_t) const override { return bounds_; }
     std::optional<SurfaceLocation> intersect(std::uint32_t, const SurfaceRay& ray,
                                              double tMax) const override;
+    SurfaceLocation locate(const FoundHit& found, const SurfaceRay& ray) const override;
     void describe(std::uint32_t, const SurfaceLocation& at, SurfaceHit& hit) const override;
 
 private:

@@ -32,19 +32,38 @@ struct Box {
     }
 };
 
+/// What Embree found, in its own float arithmetic.
+struct FoundHit {
+    std::uint32_t primitive; ///< Embree's
+    float t;
+    glm::vec2 barycentric; ///< of triangles: weights of the second and third vertex
+    glm::vec3 local;       ///< of user geometries: SurfaceLocation::local
+};
+
 /// One shape of the scene in the space of its group: the world, or that of an object definition. Immutable,
 /// and refers into the Scene, which must outlive it.
 class Surface {
 public:
     virtual ~Surface() = default;
 
+    /// The triangle or patch of the mesh, 0 of a quadric, that Embree's primitive belongs to.
+    virtual std::uint32_t meshPrimitive(std::uint32_t embreePrimitive) const { return embreePrimitive; }
+    /// The point that Embree found, computed anew; `ray` as far as possible without Embree's rounding.
+    virtual SurfaceLocation locate(const FoundHit& found, const SurfaceRay& ray) const = 0;
+    /// Position, error bound, normals, dpdu and uv of `hit`, in the group's space.
+    virtual void describe(std::uint32_t primitive, const SurfaceLocation& at, SurfaceHit& hit) const = 0;
+};
+
+/// A surface that answers to rays itself, as a user geometry of Embree.
+class UserSurface {
+public:
+    virtual ~UserSurface() = default;
+
     virtual std::uint32_t primitiveCount() const = 0;
     virtual Box bounds(std::uint32_t primitive) const = 0;
     /// The nearest meeting with 0 < t < tMax.
     virtual std::optional<SurfaceLocation> intersect(std::uint32_t primitive, const SurfaceRay& ray,
                                                      double tMax) const = 0;
-    /// Position, error bound, normals, dpdu and uv of `hit`, in the group's space.
-    virtual void describe(std::uint32_t primitive, const SurfaceLocation& at, SurfaceHit& hit) const = 0;
 };
 
 /// Bound on the relative error of n rounded float operations.

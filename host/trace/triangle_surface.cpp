@@ -6,9 +6,10 @@
 
 namespace slant {
 
-std::optional<SurfaceLocation> TriangleSurface::intersect(std::uint32_t primitive, const SurfaceRay& ray,
-                                                          double) const {
-    const std::uint32_t* v = corner(primitive);
+// Takes Embree's word that the ray meets the triangle, and answers with the point of it that is nearest to
+// the ray.
+SurfaceLocation TriangleSurface::locate(const FoundHit& found, const SurfaceRay& ray) const {
+    const std::uint32_t* v = corner(found.primitive);
     // Edge functions as seen from the origin (Plücker).
     glm::dvec3 p0 = glm::dvec3(positions_[v[0]]) - ray.origin;
     glm::dvec3 p1 = glm::dvec3(positions_[v[1]]) - ray.origin;
@@ -19,7 +20,7 @@ std::optional<SurfaceLocation> TriangleSurface::intersect(std::uint32_t primitiv
     b = determinant == 0 ? glm::dvec3(1.0 / 3) : glm::max(b / determinant, glm::dvec3(0));
     b /= b.x + b.y + b.z;
     glm::dvec3 meeting = b.x * p0 + b.y * p1 + b.z * p2;
-    return SurfaceLocation{glm::dot(meeting, ray.direction) / glm::dot(ray.direction, ray.direction), b};
+    return {glm::dot(meeting, ray.direction) / glm::dot(ray.direction, ray.direction), b};
 }
 
 void TriangleSurface::describe(std::uint32_t primitive, const SurfaceLocation& at, SurfaceHit& hit) const {

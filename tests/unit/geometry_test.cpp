@@ -193,6 +193,41 @@ TEST(Geometry, BilinearPatchLiesOnItsSurface) {
     EXPECT_GT(met, 1000);
 }
 
+TEST(Geometry, FlatPatchesKeepTheirParametrisation) {
+    Scene scene = emptyScene();
+    Mesh mesh; // two trapezoids side by side
+    mesh.kind = Mesh::Kind::bilinearPatches;
+    mesh.positions = {{-1, -1, 0}, {0, -1, 0}, {-0.5f, 1, 0}, {0, 1, 0}, {1, -1, 0}, {0.25f, 1, 0}};
+    mesh.indices = {0, 1, 2, 3, 1, 4, 3, 5};
+    glm::dmat4 place =
+        glm::rotate(glm::translate(glm::dmat4(1), glm::dvec3(7, -3, 20)), 0.8, glm::dvec3(0.6, 0, 0.8));
+    scene.shapes.push_back(meshShape(scene, mesh, place));
+    SilentMonitor monitor;
+    Geometry geometry(scene, monitor);
+    RandomRays rays(4);
+    for (int i = 0; i < 4000; ++i) {
+        float u = std::uniform_real_distribution<float>(0, 1)(rays.random),
+              v = std::fmod(float(i) * 0.618034f, 1.f);
+        const std::uint32_t* c = &mesh.indices[i % 2 ? 4 : 0];
+        glm::vec3 p = (1 - u) * ((1 - v) * mesh.positions[c[0]] + v * mesh.positions[c[2]]) +
+                      u * ((1 - v) * mesh.positions[c[1]] + v * mesh.positions[c[3]]);
+        glm::vec3 target = transformPoint(place, p), direction = rays.direction();
+        if (std::abs(glm::dot(direction, glm::vec3(place[2]))) < 0.1f) continue;
+        SurfaceHit hit;
+        ASSERT_TRUE(geometry.intersect({target - 3.f * direction, direction}, hit));
+        EXPECT_LT(glm::length(hit.position - target), 4e-5f);
+        if (std::min(u, 1 - u) < 1e-4f) continue; // which of the two is open
+        EXPECT_LT(glm::length(hit.uv - glm::vec2(u, v)), 1e-4f);
+        EXPECT_NEAR(std::abs(glm::dot(hit.geometricNormal, glm::vec3(place[2]))), 1, 1e-5);
+        glm::vec3 normal =
+            glm::dot(direction, hit.geometricNormal) > 0 ? -hit.geometricNormal : hit.geometricNormal;
+        glm::vec3 origin = offsetRayOrigin(hit.position, hit.positionError, normal, -direction);
+        EXPECT_FALSE(geometry.occluded({origin, -direction}));
+        EXPECT_FALSE(geometry.occluded(
+            {offsetRayOrigin(hit.position, hit.positionError, normal, direction), direction}));
+    }
+}
+
 TEST(Geometry, ClosedMeshesLeakNowhere) {
     SilentMonitor monitor;
     for (auto kind : {Mesh::Kind::triangles, Mesh::Kind::bilinearPatches}) {
