@@ -66,6 +66,18 @@ LightBounds boundsOf(const Emitter& e, const std::vector<EmitterQuadric>& quadri
     return b;
 }
 
+/// Two triangles side by side in one plane that shine to the same side: one light to choose.
+bool formQuadrilateral(const Emitter& a, const Emitter& b) {
+    if (a.shape != Emitter::Shape::triangle || b.shape != Emitter::Shape::triangle ||
+        a.twoSided != b.twoSided || glm::dot(a.normal, b.normal) < 0.9999f)
+        return false;
+    int shared = 0;
+    for (glm::vec3 p : {a.origin, a.origin + a.edge1, a.origin + a.edge2})
+        for (glm::vec3 q : {b.origin, b.origin + b.edge1, b.origin + b.edge2})
+            shared += glm::dot(p - q, p - q) <= 1e-10f * a.size2;
+    return shared == 2;
+}
+
 } // namespace
 
 Lights::Lights(const Scene& scene) {
@@ -122,17 +134,26 @@ void Lights::addLight(const Scene& scene, const Light& light) {
 
 void Lights::addTree() {
     std::vector<LightBounds> bounds;
-    treeIndexOf_.assign(emitters_.size(), -1);
+    leafOf_.assign(emitters_.size(), -1);
     for (std::size_t i = 0; i < emitters_.size(); ++i) {
         const Emitter& e = emitters_[i];
         if (!e.sampled || !(luminance(e.radiance) > 0)) continue;
         if (!e.bounded()) complete_ = false;
-        treeIndexOf_[i] = int(bounds.size());
-        emitterInTree_.push_back(int(i));
-        bounds.push_back(boundsOf(e, quadrics_));
+        LightBounds own = boundsOf(e, quadrics_);
+        if (i > 0 && leafOf_[i - 1] >= 0 && leaves_.back().second < 0 &&
+            formQuadrilateral(emitters_[i - 1], e)) {
+            leaves_.back().second = int(i);
+            leaves_.back().firstChance = bounds.back().intensity / (bounds.back().intensity + own.intensity);
+            bounds.back() = LightBounds::join(bounds.back(), own);
+        } else {
+            leaves_.push_back({int(i), -1, 1});
+            bounds.push_back(own);
+        }
+        leafOf_[i] = int(leaves_.size()) - 1;
     }
     tree_ = LightTree(bounds);
-    needsChoice_ = optionCount() > 1 || bounds.size() > 1 || !infinite_.empty();
+    needsChoice_ = optionCount() > 1 || leaves_.size() > 1 || !infinite_.empty() ||
+                   (!leaves_.empty() && leaves_[0].second >= 0);
 }
 
 int Lights::pieceOf(const SurfaceHit& hit) const {
@@ -154,7 +175,7 @@ glm::vec3 Lights::emitted(const SurfaceHit& hit, glm::vec3 wo) const {
 
 bool Lights::complete(const SurfaceHit& hit) const {
     int piece = pieceOf(hit);
-    return treeIndexOf_[std::size_t(piece)] >= 0 && emitters_[std::size_t(piece)].bounded();
+    return leafOf_[std::size_t(piece)] >= 0 && emitters_[std::size_t(piece)].bounded();
 }
 
 float Lights::importance(std::size_t option, const Receiver& receiver) const {
@@ -211,16 +232,21 @@ bool Lights::sample(const Receiver& receiver, float choice, glm::vec2 u, LightSa
     float treeChance;
     int index = tree_.sample(receiver, choice, treeChance);
     if (index < 0) return false;
-    const Emitter& e = emitters_[std::size_t(emitterInTree_[std::size_t(index)])];
-    if (!sampleEmitter(e, quadrics_, receiver, u, sample)) return false;
-    sample.pdf *= chance * treeChance;
+    const Leaf& leaf = leaves_[std::size_t(index)];
+    bool first = choice < leaf.firstChance;
+    if (!sampleEmitter(emitters_[std::size_t(first ? leaf.first : leaf.second)], quadrics_, receiver, u,
+                       sample))
+        return false;
+    sample.pdf *= chance * treeChance * (first ? leaf.firstChance : 1 - leaf.firstChance);
     return true;
 }
 
 float Lights::pdf(const Receiver& receiver, const SurfaceHit& hit, glm::vec3 direction) const {
-    int piece = pieceOf(hit), index = treeIndexOf_[std::size_t(piece)];
+    int piece = pieceOf(hit), index = leafOf_[std::size_t(piece)];
     if (index < 0) return 0;
-    return optionChance(optionCount() - 1, receiver) * tree_.chance(receiver, index) *
+    const Leaf& leaf = leaves_[std::size_t(index)];
+    float half = piece == leaf.first ? leaf.firstChance : 1 - leaf.firstChance;
+    return optionChance(optionCount() - 1, receiver) * tree_.chance(receiver, index) * half *
            emitterPdf(emitters_[std::size_t(piece)], quadrics_, receiver, direction, hit.position,
                       hit.geometricNormal);
 }

@@ -47,6 +47,11 @@ private:
         glm::vec3 direction; ///< unit, towards the light
         glm::vec3 radiance;  ///< irradiance on a surface that faces it
     };
+    /// What the tree chooses: an emitter, or the two halves of a flat quadrilateral.
+    struct Leaf {
+        int first, second; ///< second -1: none
+        float firstChance;
+    };
     void addLight(const Scene& scene, const Light& light);
     void addTree();
     /// Index of the emitter that was hit.
@@ -61,7 +66,8 @@ private:
     std::vector<Environment> infinite_;
     std::vector<Distant> distant_;
     LightTree tree_;
-    std::vector<int> treeIndexOf_, emitterInTree_; ///< emitters that are sampled, and back; -1 = is not
+    std::vector<Leaf> leaves_; ///< as the tree numbers them
+    std::vector<int> leafOf_;  ///< for each emitter; -1 = not sampled
     bool complete_ = true, needsChoice_ = false;
 };
 
