@@ -194,35 +194,37 @@ float Lights::optionChance(std::size_t option, const Receiver& receiver) const {
     return total > 0 ? importance(option, receiver) / total : 0;
 }
 
-bool Lights::sample(const Receiver& receiver, float choice, glm::vec2 u, LightSample& sample) const {
-    std::size_t count = optionCount(), option = 0;
-    if (count == 0) return false;
-    float chance = 1;
-    if (count > 1) {
-        float total = 0;
-        for (std::size_t i = 0; i < count; ++i) total += importance(i, receiver);
-        if (!(total > 0)) return false;
-        float rest = choice * total;
-        for (;; ++option) {
-            float part = importance(option, receiver);
-            if (part > 0 && (rest < part || option + 1 == count)) {
-                chance = part / total;
-                choice = std::min(rest / part, 0x1.fffffep-1f);
-                break;
-            }
-            if (option + 1 == count) return false;
-            rest -= part;
-        }
+int Lights::chooseOption(const Receiver& receiver, float& choice, float& chance) const {
+    int count = int(optionCount());
+    chance = 1;
+    if (count == 1) return 0;
+    float total = 0;
+    for (int i = 0; i < count; ++i) total += importance(std::size_t(i), receiver);
+    float rest = choice * total;
+    int chosen = -1;
+    for (int i = 0; i < count; ++i) {
+        float part = importance(std::size_t(i), receiver);
+        if (!(part > 0)) continue;
+        chosen = i; // stays the last one where rounding carries `rest` beyond the end
+        chance = part / total;
+        choice = std::min(rest / part, 0x1.fffffep-1f);
+        if (rest < part) break;
+        rest -= part;
     }
+    return chosen;
+}
+
+bool Lights::sample(const Receiver& receiver, float choice, glm::vec2 u, LightSample& sample) const {
+    float chance;
+    int chosen = chooseOption(receiver, choice, chance);
+    if (chosen < 0) return false;
+    std::size_t option = std::size_t(chosen);
     if (option < infinite_.size()) {
         const Environment& environment = infinite_[option];
-        sample.direction = environment.sample(receiver.normal, choice, u);
-        sample.distance = kInfinity;
-        sample.radiance = environment.radiance(sample.direction);
-        sample.pdf = chance * environment.pdf(receiver.normal, sample.direction);
-        sample.delta = false;
-        sample.bounded = true;
-        return sample.pdf > 0;
+        glm::vec3 direction = environment.sample(receiver.normal, choice, u);
+        float pdf = chance * environment.pdf(receiver.normal, direction);
+        sample = {direction, kInfinity, environment.radiance(direction), pdf, false, true};
+        return pdf > 0;
     }
     if (option < infinite_.size() + distant_.size()) {
         const Distant& distant = distant_[option - infinite_.size()];
@@ -234,9 +236,8 @@ bool Lights::sample(const Receiver& receiver, float choice, glm::vec2 u, LightSa
     if (index < 0) return false;
     const Leaf& leaf = leaves_[std::size_t(index)];
     bool first = choice < leaf.firstChance;
-    if (!sampleEmitter(emitters_[std::size_t(first ? leaf.first : leaf.second)], quadrics_, receiver, u,
-                       sample))
-        return false;
+    const Emitter& e = emitters_[std::size_t(first ? leaf.first : leaf.second)];
+    if (!sampleEmitter(e, quadrics_, receiver, u, sample)) return false;
     sample.pdf *= chance * treeChance * (first ? leaf.firstChance : 1 - leaf.firstChance);
     return true;
 }

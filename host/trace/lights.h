@@ -56,7 +56,10 @@ private:
     void addTree();
     /// Index of the emitter that was hit.
     int pieceOf(const SurfaceHit& hit) const;
+    /// Options are the infinite lights, the distant ones and the tree, in this order.
     float importance(std::size_t option, const Receiver& receiver) const;
+    /// An option, its chance, and a fresh number in place of `choice`; -1 if none can contribute.
+    int chooseOption(const Receiver& receiver, float& choice, float& chance) const;
     float optionChance(std::size_t option, const Receiver& receiver) const;
     std::size_t optionCount() const { return infinite_.size() + distant_.size() + (tree_.empty() ? 0 : 1); }
 

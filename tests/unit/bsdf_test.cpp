@@ -27,7 +27,7 @@ glm::vec3 direction(float degrees, float azimuth) {
 /// Integral over the hemisphere of `value`, a function of a world direction.
 template <typename Value>
 double overHemisphere(const Value& value) {
-    constexpr int kSteps = 512;
+    constexpr int kSteps = 300;
     double sum = 0;
     for (int i = 0; i < kSteps; ++i)
         for (int j = 0; j < kSteps; ++j) {
@@ -131,7 +131,7 @@ TEST(Bsdf, DensitiesIntegrateToOneAndSamplesFollowThem) {
             Random random;
             BsdfSample s;
             auto sampled = [&](auto value) {
-                return average(40000, [&] {
+                return average(20000, [&] {
                     float lobe = random.next1D();
                     if (!b.sample(lobe, random.next2D(), s)) return 0.0;
                     return double(value());
@@ -256,9 +256,9 @@ TEST(CoatedDiffuse, IsWhatARandomWalkGives) {
                      [](glm::vec3 w) { return w.x > 0 ? 1.0 : 0.0; },
                      [](glm::vec3 w) { return w.z < 0.3f ? 1.0 : 0.0; }}) {
                 Random a(3), c(5);
-                Estimate truth = average(150000, [&] { return walk.sample(a, wo, score); });
+                Estimate truth = average(80000, [&] { return walk.sample(a, wo, score); });
                 BsdfSample s;
-                Estimate ours = average(60000, [&] {
+                Estimate ours = average(40000, [&] {
                     float lobe = c.next1D();
                     return b.sample(lobe, c.next2D(), s) ? double(s.weight.x) * score(s.direction) : 0.0;
                 });
