@@ -44,7 +44,9 @@ struct SurfaceHit {
 /// position on the side of w (Pharr, Jakob, Humphreys: Physically Based Rendering, "Robust spawned ray
 /// origins").
 inline glm::vec3 offsetRayOrigin(glm::vec3 position, glm::vec3 positionError, glm::vec3 normal, glm::vec3 w) {
-    float distance = glm::dot(glm::abs(normal), positionError);
+    // All axes count, not only those along the normal: Embree's own rounding grows with the size of the
+    // triangle, also where its plane is exact (a floor at y = 0).
+    float distance = positionError.x + positionError.y + positionError.z;
     if (glm::dot(w, normal) < 0) distance = -distance;
     glm::vec3 origin = position + distance * normal;
     for (int axis = 0; axis < 3; ++axis) { // round away from the surface
