@@ -7,9 +7,9 @@
 namespace slant {
 namespace {
 
-/// x in [pixel, pixel + 1), also after rounding.
-float rasterPosition(int pixel, float offset) {
-    return std::min(float(pixel) + offset, std::nextafter(float(pixel + 1), -1e30f));
+/// The largest number below pixel + 1: raster positions stay in their pixel also after rounding.
+float lastOfPixel(int pixel) {
+    return std::nextafter(float(pixel + 1), -std::numeric_limits<float>::infinity());
 }
 
 /// pbrt's sensor and film: brightness, and samples no brighter than the film allows.
@@ -23,9 +23,14 @@ glm::vec3 exposed(const Film& film, glm::vec3 radiance) {
 
 } // namespace
 
-BlockTracer::BlockTracer(const TraceJob& job, int x0, int y0) : job_(job), x0_(x0), y0_(y0) {
-    for (int lane = 0; lane < kLanes; ++lane)
-        places_[std::size_t(lane)] = job.pattern.pixel(x(lane), y(lane));
+BlockTracer::BlockTracer(const TraceJob& job, int x0, int y0)
+    : job_(job), slopes_(job.camera.slopeModel()), x0_(x0), y0_(y0) {
+    for (int i = 0; i < kLanes; ++i) {
+        const std::size_t lane = std::size_t(i);
+        places_[lane] = job.pattern.pixel(x(i), y(i));
+        lastX_[lane] = lastOfPixel(x(i));
+        lastY_[lane] = lastOfPixel(y(i));
+    }
 }
 
 void BlockTracer::trace(int sample) {
@@ -43,8 +48,8 @@ void BlockTracer::generate(int sample) {
     for (int lane = 0; lane < kLanes; ++lane) {
         PatternPoint point = job_.pattern.point(places_[std::size_t(lane)], sample);
         LightFieldSample& s = samples_[std::size_t(lane)];
-        s.x = rasterPosition(x(lane), point.x);
-        s.y = rasterPosition(y(lane), point.y);
+        s.x = std::min(float(x(lane)) + point.x, lastX_[std::size_t(lane)]);
+        s.y = std::min(float(y(lane)) + point.y, lastY_[std::size_t(lane)]);
         glm::vec2 lens = concentricDisc(point.a, point.b);
         s.u = lens.x;
         s.v = lens.y;
@@ -91,7 +96,7 @@ void BlockTracer::store(int i, int sample) {
     const SurfaceHit& hit = hits_[lane];
     LightFieldSample s = samples_[lane];
     s.w = hit.t;
-    s.slope = job_.camera.slopeModel()(hit.t);
+    s.slope = slopes_(hit.t);
     s.alpha = hit.hit() ? 1.f : 0.f;
     glm::vec3 radiance = exposed(job_.scene.film, paths_[lane].radiance);
     s.r = radiance.r;

@@ -46,8 +46,10 @@ private:
     void store(int lane, int sample);
 
     const TraceJob& job_;
+    SlopeModel slopes_;
     int x0_, y0_;
     std::array<PatternPixel, kLanes> places_;
+    std::array<float, kLanes> lastX_, lastY_; ///< largest raster positions inside the pixels
     std::array<LightFieldSample, kLanes> samples_;
     std::array<AuxiliarySample, kLanes> auxiliary_;
     std::array<Ray, kLanes> rays_;

@@ -1,4 +1,5 @@
-// The one place that includes Embree: hides the differences between versions 3 and 4.
+// The one place that includes Embree: hides the differences between versions 3 and 4. Rays are not declared
+// coherent: that gains little on packets of 16, and Embree 3.13 then hangs in occlusion tests of instances.
 #pragma once
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
@@ -8,78 +9,47 @@
 
 namespace slant::embree {
 
-enum class Coherence { coherent, incoherent };
-
 #if RTC_VERSION_MAJOR >= 4
 
-template <typename Arguments>
-void setCoherence(Arguments& arguments, Coherence coherence) {
-    arguments.flags =
-        coherence == Coherence::coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+inline void intersect(RTCScene scene, RTCRayHit& ray) {
+    rtcIntersect1(scene, &ray);
 }
-
-inline RTCIntersectArguments intersectArguments(Coherence coherence) {
-    RTCIntersectArguments arguments;
-    rtcInitIntersectArguments(&arguments);
-    setCoherence(arguments, coherence);
-    return arguments;
+inline void intersect(RTCScene scene, const int* valid, RTCRayHit16& rays) {
+    rtcIntersect16(valid, scene, &rays);
 }
-
-inline RTCOccludedArguments occludedArguments(Coherence coherence) {
-    RTCOccludedArguments arguments;
-    rtcInitOccludedArguments(&arguments);
-    setCoherence(arguments, coherence);
-    return arguments;
+inline void occluded(RTCScene scene, RTCRay& ray) {
+    rtcOccluded1(scene, &ray);
 }
-
-inline void intersect(RTCScene scene, RTCRayHit& ray, Coherence coherence) {
-    RTCIntersectArguments arguments = intersectArguments(coherence);
-    rtcIntersect1(scene, &ray, &arguments);
-}
-
-inline void intersect(RTCScene scene, const int* valid, RTCRayHit16& rays, Coherence coherence) {
-    RTCIntersectArguments arguments = intersectArguments(coherence);
-    rtcIntersect16(valid, scene, &rays, &arguments);
-}
-
-inline void occluded(RTCScene scene, RTCRay& ray, Coherence coherence) {
-    RTCOccludedArguments arguments = occludedArguments(coherence);
-    rtcOccluded1(scene, &ray, &arguments);
-}
-
-inline void occluded(RTCScene scene, const int* valid, RTCRay16& rays, Coherence coherence) {
-    RTCOccludedArguments arguments = occludedArguments(coherence);
-    rtcOccluded16(valid, scene, &rays, &arguments);
+inline void occluded(RTCScene scene, const int* valid, RTCRay16& rays) {
+    rtcOccluded16(valid, scene, &rays);
 }
 
 #else
 
-inline RTCIntersectContext context(Coherence coherence) {
-    RTCIntersectContext result;
-    rtcInitIntersectContext(&result);
-    result.flags = coherence == Coherence::coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
-                                                    : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-    return result;
+inline RTCIntersectContext newContext() {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    return context;
 }
 
-inline void intersect(RTCScene scene, RTCRayHit& ray, Coherence coherence) {
-    RTCIntersectContext c = context(coherence);
-    rtcIntersect1(scene, &c, &ray);
+inline void intersect(RTCScene scene, RTCRayHit& ray) {
+    RTCIntersectContext context = newContext();
+    rtcIntersect1(scene, &context, &ray);
 }
 
-inline void intersect(RTCScene scene, const int* valid, RTCRayHit16& rays, Coherence coherence) {
-    RTCIntersectContext c = context(coherence);
-    rtcIntersect16(valid, scene, &c, &rays);
+inline void intersect(RTCScene scene, const int* valid, RTCRayHit16& rays) {
+    RTCIntersectContext context = newContext();
+    rtcIntersect16(valid, scene, &context, &rays);
 }
 
-inline void occluded(RTCScene scene, RTCRay& ray, Coherence coherence) {
-    RTCIntersectContext c = context(coherence);
-    rtcOccluded1(scene, &c, &ray);
+inline void occluded(RTCScene scene, RTCRay& ray) {
+    RTCIntersectContext context = newContext();
+    rtcOccluded1(scene, &context, &ray);
 }
 
-inline void occluded(RTCScene scene, const int* valid, RTCRay16& rays, Coherence coherence) {
-    RTCIntersectContext c = context(coherence);
-    rtcOccluded16(valid, scene, &c, &rays);
+inline void occluded(RTCScene scene, const int* valid, RTCRay16& rays) {
+    RTCIntersectContext context = newContext();
+    rtcOccluded16(valid, scene, &context, &rays);
 }
 
 #endif

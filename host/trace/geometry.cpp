@@ -5,12 +5,12 @@
 #include "trace/quadric_surface.h"
 
 #include <algorithm>
+#include <exception>
+#include <mutex>
 #include <vector>
 
 namespace slant {
 namespace {
-
-using embree::Coherence;
 
 constexpr int kPacket = 16;
 
@@ -122,6 +122,34 @@ GeometryPointer makeTriangleGeometry(RTCDevice device, const MeshSurface& surfac
     return geometry;
 }
 
+/// Lets the monitor stop a build: Embree's callback may not throw, so the exception waits.
+struct BuildWatch {
+    Monitor& monitor;
+    std::mutex mutex;
+    std::exception_ptr stopped;
+
+    static bool goOn(void* self, double) {
+        auto& watch = *static_cast<BuildWatch*>(self);
+        try {
+            watch.monitor.advance(0);
+            return true;
+        } catch (...) {
+            const std::lock_guard lock(watch.mutex);
+            watch.stopped = std::current_exception();
+            return false;
+        }
+    }
+};
+
+void commit(RTCDevice device, RTCScene scene, Monitor& monitor) {
+    BuildWatch watch{monitor, {}, nullptr};
+    rtcSetSceneProgressMonitorFunction(scene, BuildWatch::goOn, &watch);
+    rtcCommitScene(scene);
+    rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);
+    if (watch.stopped) std::rethrow_exception(watch.stopped);
+    check(device);
+}
+
 struct MadeSurface {
     std::unique_ptr<Surface> surface;
     GeometryPointer geometry; ///< uses the surface's memory
@@ -160,25 +188,23 @@ struct Geometry::Impl {
     std::vector<Group> objects;
     std::vector<Instance> instances; ///< geomID = world.entries.size() + index
 
-    explicit Impl(const Scene& scene);
+    Impl(const Scene& scene, Monitor& monitor);
     void build(Group& group, const std::vector<Shape>& shapes, const std::vector<Mesh>& meshes, bool emits);
     void addInstance(const ObjectInstance& instance);
     void resolve(const Ray& ray, unsigned instanceId, unsigned geometryId, const FoundHit& found,
                  SurfaceHit& hit) const;
 };
 
-Geometry::Impl::Impl(const Scene& scene) : device(rtcNewDevice(nullptr)) {
+Geometry::Impl::Impl(const Scene& scene, Monitor& monitor) : device(rtcNewDevice(nullptr)) {
     if (!device) throw Error(ErrorCode::resources, "Embree cannot start on this processor");
     build(world, scene.shapes, scene.meshes, true);
     objects.resize(scene.objects.size());
     for (std::size_t i = 0; i < objects.size(); ++i) {
         build(objects[i], scene.objects[i].shapes, scene.meshes, false);
-        rtcCommitScene(objects[i].scene.get());
-        check(device.get());
+        commit(device.get(), objects[i].scene.get(), monitor);
     }
     for (const ObjectInstance& instance : scene.instances) addInstance(instance);
-    rtcCommitScene(world.scene.get());
-    check(device.get());
+    commit(device.get(), world.scene.get(), monitor);
 }
 
 void Geometry::Impl::build(Group& group, const std::vector<Shape>& shapes, const std::vector<Mesh>& meshes,
@@ -276,7 +302,7 @@ void fillPacket(std::span<const Ray> rays, RTCRay16& packet, int* valid) {
 
 } // namespace
 
-Geometry::Geometry(const Scene& scene, Monitor&) : impl_(std::make_unique<Impl>(scene)) {}
+Geometry::Geometry(const Scene& scene, Monitor& monitor) : impl_(std::make_unique<Impl>(scene, monitor)) {}
 Geometry::~Geometry() = default;
 
 bool Geometry::intersect(const Ray& ray, SurfaceHit& hit) const {
@@ -284,7 +310,7 @@ bool Geometry::intersect(const Ray& ray, SurfaceHit& hit) const {
     query.ray = singleRay(ray);
     query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     hit = SurfaceHit();
-    embree::intersect(impl_->world.scene.get(), query, Coherence::incoherent);
+    embree::intersect(impl_->world.scene.get(), query);
     const RTCHit& h = query.hit;
     if (h.geomID == RTC_INVALID_GEOMETRY_ID) return false;
     impl_->resolve(ray, h.instID[0], h.geomID,
@@ -294,7 +320,7 @@ bool Geometry::intersect(const Ray& ray, SurfaceHit& hit) const {
 
 bool Geometry::occluded(const Ray& ray) const {
     RTCRay query = singleRay(ray);
-    embree::occluded(impl_->world.scene.get(), query, Coherence::incoherent);
+    embree::occluded(impl_->world.scene.get(), query);
     return query.tfar < 0;
 }
 
@@ -306,7 +332,7 @@ void Geometry::intersect(std::span<const Ray> rays, std::span<SurfaceHit> hits) 
         fillPacket(part, query.ray, valid);
         std::fill_n(query.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
         std::fill_n(query.hit.instID[0], kPacket, RTC_INVALID_GEOMETRY_ID);
-        embree::intersect(impl_->world.scene.get(), valid, query, Coherence::coherent);
+        embree::intersect(impl_->world.scene.get(), valid, query);
         const RTCHit16& h = query.hit;
         for (std::size_t i = 0; i < part.size(); ++i) {
             SurfaceHit& hit = hits[first + i] = SurfaceHit();
@@ -324,8 +350,7 @@ void Geometry::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occlu
         RTCRay16 query;
         alignas(64) int valid[kPacket];
         fillPacket(part, query, valid);
-        // Embree 3.13 hangs in its coherent occlusion test when an object is instanced.
-        embree::occluded(impl_->world.scene.get(), valid, query, Coherence::incoherent);
+        embree::occluded(impl_->world.scene.get(), valid, query);
         for (std::size_t i = 0; i < part.size(); ++i) occluded[first + i] = valid[i] && query.tfar[i] < 0;
     }
 }

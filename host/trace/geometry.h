@@ -15,7 +15,7 @@ namespace slant {
 class Geometry {
 public:
     /// The scene must outlive the geometry. Throws Error(badInput) for shapes that cannot be used, with their
-    /// location, and Error(resources) when memory runs out.
+    /// location, Error(resources) when memory runs out, and what the monitor throws.
     Geometry(const Scene& scene, Monitor& monitor);
     ~Geometry();
     Geometry(const Geometry&) = delete;

@@ -376,6 +376,23 @@ TEST(Geometry, SpawnedRaysDoNotMeetTheirOwnSurface) {
         }
 }
 
+TEST(Geometry, BuildingCanBeInterrupted) {
+    struct Impatient final : Monitor {
+        void beginStage(std::string_view, std::uint64_t, std::string_view) override {}
+        void advance(std::uint64_t) override { throw Error(ErrorCode::interrupted, "stop"); }
+        void endStage() override {}
+        void warn(std::string_view) override {}
+    } monitor;
+    Scene scene = emptyScene();
+    scene.shapes.push_back(meshShape(scene, ballMesh(100, Mesh::Kind::triangles)));
+    try {
+        Geometry(scene, monitor);
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_EQ(e.code(), ErrorCode::interrupted);
+    }
+}
+
 TEST(Geometry, BoundsAndErrors) {
     SilentMonitor monitor;
     Scene scene = emptyScene();
