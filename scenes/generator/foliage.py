@@ -74,6 +74,8 @@ def sow(rng):
         size = 0.85 + 0.4 * rng.random()
         if z < 3.1 and abs(x) < 0.45 * z:
             size *= 0.5  # leave a view to the focus
+        elif z < 3.1:
+            size *= 1.3
         lines.append(f'AttributeBegin  Translate {x:.3f} 0 {z:.3f}  Rotate {360 * rng.random():.0f} 0 1 0'
                      f'  Scale {size:.3f} {size:.3f} {size:.3f}  ObjectInstance "clump{rng.randrange(3)}"  AttributeEnd')
     for k in range(90):

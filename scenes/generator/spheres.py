@@ -56,9 +56,9 @@ def floor(rng, count, taken):
     placed = list(taken)
     balls = []
     while len(balls) < count:
-        z = 4.3 + 19 * rng.random() ** 1.25
-        x = (2 * rng.random() - 1) * 0.66 * z
         radius = 0.24 + 0.42 * rng.random() ** 2
+        z = 4.3 + radius + 18.5 * rng.random() ** 1.25
+        x = (2 * rng.random() - 1) * 0.66 * z
         if z < 8 and abs(x) < 0.25 * z:
             continue  # leave a view to the focus
         if all(math.dist((x, radius, z), other[:3]) > 1.12 * (radius + other[3]) for other in placed):
