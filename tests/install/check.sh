@@ -8,7 +8,7 @@ trap 'rm -rf "$scratch"' EXIT
 
 cmake --install "$build" --prefix "$scratch/first" >/dev/null
 mv "$scratch/first" "$scratch/moved"
-test -x "$scratch/moved/bin/slant"
+"$scratch/moved/bin/slant" --help >/dev/null
 cmake -S "$source" -B "$scratch/consumer" -G Ninja -Dslant_ROOT="$scratch/moved" >/dev/null
 cmake --build "$scratch/consumer"
 "$scratch/consumer/consumer"
