@@ -177,7 +177,8 @@ private:
                                   kSearchRadii * emptyCircleRadius(field_.samplesPerPixel));
         CpuChunk cpu(*cpuBins_, pattern, band, options_.seed, push.firstGroup, push.groupCount);
         cpu.redo(indices, report_);
-        for (const uint index : indices) dense.upload(std::span<const vec4>(&cpu.dense.samples[index], 1), index);
+        for (const uint index : indices)
+            dense.upload(std::span<const vec4>(&cpu.dense.samples[index], 1), index);
     }
 
     Device& device_;

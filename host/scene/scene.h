@@ -141,9 +141,9 @@ struct ObjectInstance {
 
 // ---------------------------------------------------------------- lights
 
-/// AreaLightSource "diffuse". Emitted radiance is `radiance` * `scale`; if `power` (W) is set, also divided by
-/// the power that radiance 1 gives and times `power`. pbrt does so for each sphere, disk, triangle and patch on
-/// its own: a mesh of n faces emits n times `power`.
+/// AreaLightSource "diffuse". Emitted radiance is `radiance` * `scale`; if `power` (W) is set, also divided
+/// by the power that radiance 1 gives and times `power`. pbrt does so for each sphere, disk, triangle and
+/// patch on its own: a mesh of n faces emits n times `power`.
 struct AreaLight {
     glm::vec3 radiance{1};
     float scale = 1;

@@ -70,21 +70,21 @@ struct OutputPush {
     GridLayout grid;
     OutputLayout outputs;
     ivec2 lensCells;
-    int firstOutput;   // of the chunk
-    uint count;        // invocations
-    uint firstGroup;   // lens groups of the chunk
+    int firstOutput; // of the chunk
+    uint count;      // invocations
+    uint firstGroup; // lens groups of the chunk
     uint groupCount;
     uint brickTotal;
-    float radiusPx;    // lists: margin around a tile; visibility: base radius
+    float radiusPx; // lists: margin around a tile; visibility: base radius
 };
 
 /// pixel_filter: planes of dense samples into a band of the film.
 struct FilterPush {
-    ivec2 regionSize;   // of the dense planes
-    ivec2 reach;        // pixels to each side
-    ivec2 tableLength;  // entries of each axis
+    ivec2 regionSize;  // of the dense planes
+    ivec2 reach;       // pixels to each side
+    ivec2 tableLength; // entries of each axis
     ivec2 filmSize;
-    int firstRow;       // of the film
+    int firstRow; // of the film
     int rowCount;
     int firstPlane;
     int planeCount;
