@@ -1,5 +1,5 @@
 #version 460
-// The occupied bricks: corner from the key, bounds of slope.
+// The occupied bricks: place from the key, bounds as bin_bounds gathered them.
 #extension GL_GOOGLE_include_directive : require
 #include "lib/invocation.glsl"
 #include "lib/ordered_float.glsl"
@@ -7,17 +7,19 @@
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform utextureBuffer brickKeys;
-layout(set = 0, binding = 1) uniform utextureBuffer slopeMin;
-layout(set = 0, binding = 2) uniform utextureBuffer slopeMax;
-layout(set = 0, binding = 3, rgba32ui) uniform writeonly uimageBuffer bricks;
+layout(set = 0, binding = 1) uniform utextureBuffer bounds;
+layout(set = 0, binding = 2, rgba32ui) uniform writeonly uimageBuffer bricks;
 layout(push_constant) uniform Push { BinPush push; };
 
 void main() {
     const uint i = linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
     if (i >= push.count) return;
-    const int key = int(texelFetch(brickKeys, int(i)).x);
+    const int key = int(texelFetch(brickKeys, int(i)).x), word = int(i * kBoundWords);
     const ivec2 count = push.grid.brickCount;
-    const ivec2 corner = push.grid.cellsPerBrick * ivec2(key % count.x, key / count.x % count.y);
+    const uint place = uint(key % count.x | key / count.x % count.y << 16);
+    const uint first = texelFetch(bounds, word + 2).x | texelFetch(bounds, word + 3).x << 8;
+    const uint last = ~texelFetch(bounds, word + 4).x << 16 | ~texelFetch(bounds, word + 5).x << 24;
     imageStore(bricks, int(i),
-               uvec4(uvec2(corner), floatBits(texelFetch(slopeMin, int(i)).x), floatBits(texelFetch(slopeMax, int(i)).x)));
+               uvec4(place, first | last, floatBits(texelFetch(bounds, word).x),
+                     floatBits(~texelFetch(bounds, word + 1).x)));
 }

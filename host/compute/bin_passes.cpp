@@ -29,7 +29,7 @@ struct BinPasses::Placed {
 
 BinPasses::BinPasses(Device& device)
     : device_(device), place_(device, "bin_place"), gather_(device, "bin_gather"),
-      slopes_(device, "bin_slopes"), bricks_(device, "bin_bricks"), cells_(device, "bin_cells") {}
+      bounds_(device, "bin_bounds"), bricks_(device, "bin_bricks"), cells_(device, "bin_cells") {}
 
 void BinPasses::place(CommandList& commands, const LightField& field, BinPush push, Placed& placed) {
     const std::size_t part = std::min(kUploadSamples, field.samples.size());
@@ -79,16 +79,14 @@ DeviceBins BinPasses::run(CommandList& commands, const LightField& field, const 
     commands.run();
     push.brickTotal = lastWord(brickOfRecord);
 
-    Buffer slopeMin(device_, TexelFormat::r32ui, push.brickTotal),
-        slopeMax(device_, TexelFormat::r32ui, push.brickTotal);
+    Buffer bounds(device_, TexelFormat::r32ui, push.brickTotal * std::uint64_t(kBoundWords));
     Buffer brickKeys(device_, TexelFormat::r32ui, push.brickTotal);
-    commands.fill(slopeMin, 0xffffffffu);
-    commands.fill(slopeMax, 0);
-    commands.dispatch(slopes_, {sorted.keys, positions, brickOfRecord, slopeMin, slopeMax, brickKeys}, push,
-                      slopes_.gridFor(kept));
+    commands.fill(bounds, 0xffffffffu);
+    commands.dispatch(bounds_, {sorted.keys, positions, brickOfRecord, bounds, brickKeys}, push,
+                      bounds_.gridFor(kept));
     Buffer bricks(device_, TexelFormat::rgba32ui, push.brickTotal);
     push.count = push.brickTotal;
-    commands.dispatch(bricks_, {brickKeys, slopeMin, slopeMax, bricks}, push, bricks_.gridFor(push.count));
+    commands.dispatch(bricks_, {brickKeys, bounds, bricks}, push, bricks_.gridFor(push.count));
     Buffer cellStart(device_, TexelFormat::r32ui, push.brickTotal * cellsPerBrick + 1);
     push.count = uint(cellStart.texels());
     commands.dispatch(cells_, {sorted.keys, brickKeys, cellStart}, push, cells_.gridFor(push.count));

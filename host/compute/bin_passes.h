@@ -27,7 +27,7 @@ private:
     void place(CommandList& commands, const LightField& field, BinPush push, Placed& placed);
 
     Device& device_;
-    Pass place_, gather_, slopes_, bricks_, cells_;
+    Pass place_, gather_, bounds_, bricks_, cells_;
 };
 
 } // namespace slant

@@ -40,11 +40,28 @@ std::vector<std::uint64_t> sortedSamples(const LightField& field, const Rect& re
     return order;
 }
 
-Brick brickAt(const GridLayout& grid, uint key, float slope) {
-    const int column = int(key) % grid.brickCount.x;
-    const int row = int(key) / grid.brickCount.x % grid.brickCount.y;
-    return {column * grid.cellsPerBrick, row * grid.cellsPerBrick, slope, slope};
-}
+/// Bounds of a brick while its samples come in.
+struct BrickBounds {
+    uint key = kNotBinned; ///< of the brick
+    ivec2 first{255}, last{0};
+    float slopeMin = 0, slopeMax = 0;
+
+    BrickBounds(uint brickKey, float slope) : key(brickKey), slopeMin(slope), slopeMax(slope) {}
+
+    void add(ivec2 cell, float slope) {
+        first = glm::min(first, cell);
+        last = glm::max(last, cell);
+        slopeMin = std::min(slopeMin, slope);
+        slopeMax = std::max(slopeMax, slope);
+    }
+
+    Brick brick(const GridLayout& grid) const {
+        const int column = int(key) % grid.brickCount.x;
+        const int row = int(key) / grid.brickCount.x % grid.brickCount.y;
+        return {uint(column | row << 16), uint(first.x | first.y << 8 | last.x << 16) | uint(last.y) << 24,
+                slopeMin, slopeMax};
+    }
+};
 
 } // namespace
 
@@ -56,23 +73,20 @@ Bins binSamples(const LightField& field, const Rect& region, float marginPx) {
 
     bins.positions.reserve(order.size());
     bins.radiances.reserve(order.size());
-    uint lastKey = kNotBinned;
+    std::vector<BrickBounds> bricks;
     for (std::size_t record = 0; record < order.size(); ++record) {
-        const uint key = uint(order[record] >> 32);
+        const uint key = uint(order[record] >> 32), cell = key % cellsPerBrick;
         const LightFieldSample& s = field.samples[uint(order[record])];
-        if (key / cellsPerBrick != lastKey) {
-            lastKey = key / cellsPerBrick;
-            bins.bricks.push_back(brickAt(bins.grid, lastKey, s.slope));
-        }
-        Brick& brick = bins.bricks.back();
-        brick.slopeMin = std::min(brick.slopeMin, s.slope);
-        brick.slopeMax = std::max(brick.slopeMax, s.slope);
+        if (bricks.empty() || key / cellsPerBrick != bricks.back().key)
+            bricks.emplace_back(key / cellsPerBrick, s.slope);
+        bricks.back().add(ivec2(int(cell) % bins.grid.cellsPerBrick, int(cell) / bins.grid.cellsPerBrick),
+                          s.slope);
         // Cells up to this one begin here at the latest.
-        bins.cellStart.resize((bins.bricks.size() - 1) * cellsPerBrick + key % cellsPerBrick + 1,
-                              uint(record));
+        bins.cellStart.resize((bricks.size() - 1) * cellsPerBrick + cell + 1, uint(record));
         bins.positions.emplace_back(pinholePosition(s), s.slope, 0);
         bins.radiances.emplace_back(s.r, s.g, s.b, s.alpha);
     }
+    for (const BrickBounds& bounds : bricks) bins.bricks.push_back(bounds.brick(bins.grid));
     bins.cellStart.resize(bins.bricks.size() * cellsPerBrick + 1, uint(order.size()));
     return bins;
 }

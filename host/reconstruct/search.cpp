@@ -32,13 +32,14 @@ int forEachCandidate(const SearchContext& context, const Output& output, float r
         const vec2 a = brick.slopeMin * output.uv, b = brick.slopeMax * output.uv;
         const vec2 low = (output.xy - glm::max(a, b) - radius - grid.origin) * grid.invCell;
         const vec2 high = (output.xy - glm::min(a, b) + radius - grid.origin) * grid.invCell;
-        const ivec2 corner(brick.firstCellX, brick.firstCellY);
-        const ivec2 first = glm::max(cellAt(grid, low) - corner, ivec2(0));
-        const ivec2 last = glm::min(cellAt(grid, high) - corner, ivec2(side - 1));
+        const CellBox box = boxOf(brick, grid);
+        const ivec2 first = glm::max(cellAt(grid, low), box.first),
+                    last = glm::min(cellAt(grid, high), box.last);
         ++iterations;
         if (first.x > last.x) continue;
+        const ivec2 corner = cornerOf(brick, grid);
         for (int row = first.y; row <= last.y; ++row) {
-            const std::size_t cell = (std::size_t(id) * side + row) * side;
+            const std::size_t cell = (std::size_t(id) * side + (row - corner.y)) * side - corner.x;
             const uint begin = context.bins.cellStart[cell + first.x];
             const uint end = context.bins.cellStart[cell + last.x + 1];
             iterations += int(end - begin) + 1;

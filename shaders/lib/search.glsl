@@ -18,14 +18,14 @@ bool forEachCandidate(GridLayout grid, Output o, float radius, uint listBegin, u
         const vec2 a = brick.slopeMin * o.uv, b = brick.slopeMax * o.uv;
         const vec2 low = (o.xy - max(a, b) - radius - grid.origin) * grid.invCell;
         const vec2 high = (o.xy - min(a, b) + radius - grid.origin) * grid.invCell;
-        const ivec2 corner = ivec2(brick.firstCellX, brick.firstCellY);
-        const ivec2 first = max(cellAt(grid, low) - corner, ivec2(0));
-        const ivec2 last = min(cellAt(grid, high) - corner, ivec2(side - 1));
+        const ivec4 box = boxOf(brick, grid);
+        const ivec2 first = max(cellAt(grid, low), box.xy), last = min(cellAt(grid, high), box.zw);
         ++iterations;
         if (iterations > kMaxLoopIterations) return false;
         if (first.x > last.x) continue;
+        const ivec2 corner = cornerOf(brick, grid);
         for (int row = first.y; row <= last.y && sweep.running; ++row) {
-            const uint cell = (id * uint(side) + uint(row)) * uint(side);
+            const uint cell = (id * uint(side) + uint(row - corner.y)) * uint(side) - uint(corner.x);
             const uint begin = cellStartAt(cell + uint(first.x));
             const uint end = cellStartAt(cell + uint(last.x) + 1u);
             iterations += int(end - begin) + 1;

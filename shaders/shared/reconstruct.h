@@ -43,11 +43,16 @@ struct OutputLayout {
     uint seed;
 };
 
-/// An occupied brick: its place and the slopes that its samples have. One RGBA32UI texel, the floats as bits.
+/// An occupied brick: its place and bounds of its samples. One RGBA32UI texel, the floats as bits.
 struct Brick {
-    int firstCellX, firstCellY; // its corner, in cells from the grid's origin
+    uint place; // column | row << 16, in bricks
+    uint box;   // occupied cells of the brick: first column | first row << 8 | last column << 16 | last row << 24
     float slopeMin, slopeMax;
 };
+
+/// Words of a brick while its bounds are gathered, each the least of what its samples have: slope in ordered bits,
+/// its complement, column, row, and the complements of those.
+SLANT_SHARED_CONSTANT uint kBoundWords = 6u;
 
 /// Words of the counters that passes append to.
 SLANT_SHARED_CONSTANT uint kVisibilityCount = 0u; // outputs that need visibility
