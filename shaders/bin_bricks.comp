@@ -16,10 +16,11 @@ void main() {
     if (i >= push.count) return;
     const int key = int(texelFetch(brickKeys, int(i)).x), word = int(i * kBoundWords);
     const ivec2 count = push.grid.brickCount;
-    const uint place = uint(key % count.x | key / count.x % count.y << 16);
-    const uint first = texelFetch(bounds, word + 2).x | texelFetch(bounds, word + 3).x << 8;
-    const uint last = ~texelFetch(bounds, word + 4).x << 16 | ~texelFetch(bounds, word + 5).x << 24;
+    const ivec2 place = ivec2(key % count.x, key / count.x % count.y);
+    const uvec2 corner = uvec2(place * push.grid.cellsPerBrick);
+    const uvec2 first = corner + uvec2(texelFetch(bounds, word + 2).x, texelFetch(bounds, word + 3).x);
+    const uvec2 last = corner + uvec2(~texelFetch(bounds, word + 4).x, ~texelFetch(bounds, word + 5).x);
     imageStore(bricks, int(i),
-               uvec4(place, first | last, floatBits(texelFetch(bounds, word).x),
+               uvec4(first.x | first.y << 16, last.x | last.y << 16, floatBits(texelFetch(bounds, word).x),
                      floatBits(~texelFetch(bounds, word + 1).x)));
 }

@@ -10,7 +10,7 @@ layout(set = 0, binding = 0) uniform utextureBuffer bricks;
 layout(set = 0, binding = 1) uniform textureBuffer lensBoxes;
 layout(set = 0, binding = 2) uniform utextureBuffer offsets; // of (group, brick), and the total
 layout(set = 0, binding = 3, r32ui) uniform writeonly uimageBuffer lists;
-layout(set = 0, binding = 4, r32ui) uniform writeonly uimageBuffer listBricks;
+layout(set = 0, binding = 4, r32ui) uniform writeonly uimageBuffer listIds;
 layout(push_constant) uniform Push { OutputPush push; };
 
 uint keyAt(uint i) { return texelFetch(offsets, int(i)).x; }
@@ -28,5 +28,5 @@ void main() {
     const ivec2 tile = range.xy + ivec2(place % width, place / width);
     const ivec2 tiles = push.outputs.tileCount;
     imageStore(lists, int(i), uvec4((group * uint(tiles.y) + uint(tile.y)) * uint(tiles.x) + uint(tile.x)));
-    imageStore(listBricks, int(i), uvec4(brick));
+    imageStore(listIds, int(i), uvec4(brick));
 }

@@ -22,8 +22,6 @@ struct Sweep {
     Hull hull;
 };
 
-Brick brickAt(uint id) { return brickOf(texelFetch(bricks, int(id))); }
-
 void visit(Candidate candidate, inout Sweep sweep) {
     if (sweep.weightSum > 0.0 && candidate.slope > sweep.slopeMax + sweep.surfaceGap) {
         sweep.running = false; // there is another surface behind
@@ -45,13 +43,14 @@ void main() {
     const OutputLayout outputs = push.outputs;
     const GridLayout grid = push.grid;
     const uint tiles = uint(outputs.tileCount.x * outputs.tileCount.y);
-    // Neighbouring lanes take the outputs of one lens group and pixel: their candidates are much the same.
-    const uint groupSize = uint(min(kOutputsPerGroup, outputs.outputsPerPixel));
+    // Eight neighbouring lanes take two lens positions of a square of two by two pixels: of the ways to split a tile
+    // and a lens group this keeps their candidates most alike.
+    const uint groupSize = uint(min(kOutputsPerGroup, outputs.outputsPerPixel)), pair = min(groupSize, 2u);
     const uint list = invocation / (64u * groupSize), group = list / tiles, tile = list - group * tiles;
-    const uint k = group * groupSize + invocation % groupSize;
-    const uint pixel = invocation / groupSize & 63u;
+    const uint k = group * groupSize + invocation % pair + pair * (invocation / (4u * pair) % (groupSize / pair));
+    const uint quad = invocation / pair & 3u, block = invocation / (4u * groupSize) & 15u;
     const ivec2 corner = kTileSize * ivec2(tile % uint(outputs.tileCount.x), tile / uint(outputs.tileCount.x));
-    const ivec2 position = corner + ivec2(pixel & 7u, pixel >> 3);
+    const ivec2 position = corner + 2 * ivec2(block & 3u, block >> 2) + ivec2(quad & 1u, quad >> 1);
     if (position.x >= outputs.regionSize.x || position.y >= outputs.regionSize.y) return;
 
     const int index = push.firstOutput + int(k);

@@ -20,8 +20,6 @@ struct Sweep {
     Surface surface;
 };
 
-Brick brickAt(uint id) { return brickOf(texelFetch(bricks, int(id))); }
-
 void visit(Candidate candidate, inout Sweep sweep) {
     const bool another = sweep.surface.count >= kMinSurfaceSamples &&
                          candidate.slope > sweep.surface.slopeMax + sweep.surfaceGap;

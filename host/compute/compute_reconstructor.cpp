@@ -160,7 +160,7 @@ private:
             report_.outputs += timer.items = samples;
             timer.bytes = device_.peakBytes();
             observe(observer_, "lists.start", lists.start);
-            observe(observer_, "lists.bricks", lists.bricks);
+            observe(observer_, "lists.bricks", lists.ids);
             observe(observer_, "dense", dense, samples);
         }
         StageTimer timer(report_, "pixel_filter", "outputs");

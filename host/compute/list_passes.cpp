@@ -16,7 +16,8 @@ Buffer uploadBoxes(Device& device, const OutputPattern& pattern) {
 
 ListPasses::ListPasses(Device& device, const OutputPattern& pattern)
     : device_(device), count_(device, "list_count"), emit_(device, "list_emit"), start_(device, "list_start"),
-      scan_(device, 1), sort_(device, 1), lensBoxes_(uploadBoxes(device, pattern)) {}
+      gather_(device, "list_gather"), scan_(device, 1), sort_(device, 1),
+      lensBoxes_(uploadBoxes(device, pattern)) {}
 
 DeviceLists ListPasses::run(CommandList& commands, const DeviceBins& bins, OutputPush push, float marginPx) {
     push.radiusPx = marginPx;
@@ -41,8 +42,10 @@ DeviceLists ListPasses::run(CommandList& commands, const DeviceBins& bins, Outpu
     Buffer start(device_, TexelFormat::r32ui, lists + 1);
     commands.dispatch(start_, {sorted.keys, start}, LowerBoundPush{entries, lists + 1},
                       start_.gridFor(lists + 1));
+    Buffer bricks(device_, TexelFormat::rgba32ui, entries);
+    commands.dispatch(gather_, {sorted.values, bins.bricks, bricks}, push, gather_.gridFor(entries));
     commands.run();
-    return {std::move(start), std::move(sorted.values)};
+    return {std::move(start), std::move(sorted.values), std::move(bricks)};
 }
 
 } // namespace slant

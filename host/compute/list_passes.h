@@ -7,7 +7,8 @@ namespace slant {
 
 struct DeviceLists {
     Buffer start;  ///< groups * tiles + 1
-    Buffer bricks; ///< entries, at least one texel
+    Buffer ids;    ///< of bricks, one an entry
+    Buffer bricks; ///< the bricks themselves
 };
 
 class ListPasses {
@@ -20,7 +21,7 @@ public:
 
 private:
     Device& device_;
-    Pass count_, emit_, start_;
+    Pass count_, emit_, start_, gather_;
     Scan scan_;
     RadixSort sort_;
     Buffer lensBoxes_;

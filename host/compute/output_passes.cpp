@@ -35,7 +35,7 @@ OutputPasses::Result OutputPasses::run(CommandList& commands, ListPasses& listPa
     push.count =
         uint(planes) * uint(push.outputs.tileCount.x * push.outputs.tileCount.y) * kTileSize * kTileSize;
     commands.dispatch(nearest_,
-                      {bins.positions, bins.radiances, bins.cellStart, bins.bricks, lists.start, lists.bricks,
+                      {bins.positions, bins.radiances, bins.cellStart, lists.start, lists.ids, lists.bricks,
                        pattern_, dense, counters_, visibilityList_, overflowList_},
                       push, nearest_.gridFor(push.count));
     commands.run();
@@ -44,7 +44,7 @@ OutputPasses::Result OutputPasses::run(CommandList& commands, ListPasses& listPa
     result.visibility = push.count = counters()[kVisibilityCount];
     const auto look = [&](const DeviceLists& in) {
         commands.dispatch(visibility_,
-                          {bins.positions, bins.radiances, bins.cellStart, bins.bricks, in.start, in.bricks,
+                          {bins.positions, bins.radiances, bins.cellStart, in.start, in.ids, in.bricks,
                            pattern_, visibilityList_, dense, counters_, holeList_, overflowList_},
                           push, visibility_.gridFor(push.count));
         commands.run();

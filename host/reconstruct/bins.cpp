@@ -56,10 +56,9 @@ struct BrickBounds {
     }
 
     Brick brick(const GridLayout& grid) const {
-        const int column = int(key) % grid.brickCount.x;
-        const int row = int(key) / grid.brickCount.x % grid.brickCount.y;
-        return {uint(column | row << 16), uint(first.x | first.y << 8 | last.x << 16) | uint(last.y) << 24,
-                slopeMin, slopeMax};
+        const ivec2 place(int(key) % grid.brickCount.x, int(key) / grid.brickCount.x % grid.brickCount.y);
+        const ivec2 low = place * grid.cellsPerBrick + first, high = place * grid.cellsPerBrick + last;
+        return {uint(low.x | low.y << 16), uint(high.x | high.y << 16), slopeMin, slopeMax};
     }
 };
 

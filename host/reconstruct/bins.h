@@ -6,19 +6,11 @@
 
 namespace slant {
 
-/// Occupied cells of a brick, in cells from the grid's origin; inclusive.
-struct CellBox {
-    ivec2 first, last;
-};
-
-inline ivec2 cornerOf(const Brick& brick, const GridLayout& grid) {
-    return grid.cellsPerBrick * ivec2(brick.place & 0xffffu, brick.place >> 16);
+inline ivec2 firstCell(const Brick& brick) {
+    return ivec2(brick.firstCell & 0xffffu, brick.firstCell >> 16);
 }
-
-inline CellBox boxOf(const Brick& brick, const GridLayout& grid) {
-    const ivec2 corner = cornerOf(brick, grid);
-    return {corner + ivec2(brick.box & 0xffu, brick.box >> 8 & 0xffu),
-            corner + ivec2(brick.box >> 16 & 0xffu, brick.box >> 24)};
+inline ivec2 lastCell(const Brick& brick) {
+    return ivec2(brick.lastCell & 0xffffu, brick.lastCell >> 16);
 }
 
 struct Bins {

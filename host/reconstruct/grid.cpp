@@ -98,8 +98,9 @@ GridLayout chooseGrid(const LightField& field, const Rect& region, float marginP
         grid.bucketCount = int((slopeMax - slopeMin) * grid.invBucket) + 1;
         const double cells =
             double(grid.brickCount.x) * grid.brickCount.y * grid.cellsPerBrick * grid.cellsPerBrick;
-        if (cells * grid.bucketCount < double(kNotBinned)) return grid;
-        if (grid.bucketCount > 64)
+        const int widest = std::max(grid.brickCount.x, grid.brickCount.y) * grid.cellsPerBrick;
+        if (cells * grid.bucketCount < double(kNotBinned) && widest <= 1 << 15) return grid;
+        if (grid.bucketCount > 64 && widest <= 1 << 15)
             bucketWidth *= 2;
         else
             cellPx *= 2;

@@ -26,18 +26,18 @@ template <typename Visit>
 int forEachCandidate(const SearchContext& context, const Output& output, float radius, Visit&& visit) {
     const GridLayout& grid = context.bins.grid;
     const int side = grid.cellsPerBrick;
+    // In cells: where the output lies, how far its window moves with slope, and its half width.
+    const vec2 center = (output.xy - grid.origin) * grid.invCell, shear = output.uv * grid.invCell;
+    const float reach = radius * grid.invCell;
     int iterations = 0;
     for (const uint id : context.bricks) {
         const Brick& brick = context.bins.bricks[id];
-        const vec2 a = brick.slopeMin * output.uv, b = brick.slopeMax * output.uv;
-        const vec2 low = (output.xy - glm::max(a, b) - radius - grid.origin) * grid.invCell;
-        const vec2 high = (output.xy - glm::min(a, b) + radius - grid.origin) * grid.invCell;
-        const CellBox box = boxOf(brick, grid);
-        const ivec2 first = glm::max(cellAt(grid, low), box.first),
-                    last = glm::min(cellAt(grid, high), box.last);
+        const vec2 a = brick.slopeMin * shear, b = brick.slopeMax * shear;
+        const ivec2 first = glm::max(cellAt(grid, center - glm::max(a, b) - reach), firstCell(brick));
+        const ivec2 last = glm::min(cellAt(grid, center - glm::min(a, b) + reach), lastCell(brick));
         ++iterations;
-        if (first.x > last.x) continue;
-        const ivec2 corner = cornerOf(brick, grid);
+        if (first.x > last.x || first.y > last.y) continue;
+        const ivec2 corner = first / side * side;
         for (int row = first.y; row <= last.y; ++row) {
             const std::size_t cell = (std::size_t(id) * side + (row - corner.y)) * side - corner.x;
             const uint begin = context.bins.cellStart[cell + first.x];

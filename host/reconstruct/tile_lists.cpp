@@ -16,14 +16,14 @@ int tileOf(float px) {
 TileRange tilesSeeing(const Brick& brick, const GridLayout& grid, const OutputLayout& layout,
                       const LensBox& box, float marginPx) {
     const float cellPx = 1.f / grid.invCell;
-    const CellBox cells = boxOf(brick, grid);
+    const ivec2 first = firstCell(brick), last = lastCell(brick);
     const ivec2 rim = grid.brickCount * grid.cellsPerBrick - 1;
-    vec2 low = grid.origin + vec2(cells.first) * cellPx;
-    vec2 high = grid.origin + vec2(cells.last + 1) * cellPx;
-    if (cells.first.x == 0) low.x = -kFarPx;
-    if (cells.first.y == 0) low.y = -kFarPx;
-    if (cells.last.x == rim.x) high.x = kFarPx;
-    if (cells.last.y == rim.y) high.y = kFarPx;
+    vec2 low = grid.origin + vec2(first) * cellPx;
+    vec2 high = grid.origin + vec2(last + 1) * cellPx;
+    if (first.x == 0) low.x = -kFarPx;
+    if (first.y == 0) low.y = -kFarPx;
+    if (last.x == rim.x) high.x = kFarPx;
+    if (last.y == rim.y) high.y = kFarPx;
     const vec2 a = brick.slopeMin * box.min, b = brick.slopeMin * box.max;
     const vec2 c = brick.slopeMax * box.min, d = brick.slopeMax * box.max;
     const vec2 shearMin = glm::min(glm::min(a, b), glm::min(c, d));

@@ -33,16 +33,8 @@ Brick brickOf(uvec4 texel) {
     return Brick(texel.x, texel.y, uintBitsToFloat(texel.z), uintBitsToFloat(texel.w));
 }
 
-ivec2 cornerOf(Brick brick, GridLayout grid) {
-    return grid.cellsPerBrick * ivec2(brick.place & 0xffffu, brick.place >> 16);
-}
-
-/// Occupied cells: first.xy, last.zw, inclusive.
-ivec4 boxOf(Brick brick, GridLayout grid) {
-    const ivec2 corner = cornerOf(brick, grid);
-    return corner.xyxy +
-           ivec4(brick.box & 0xffu, brick.box >> 8 & 0xffu, brick.box >> 16 & 0xffu, brick.box >> 24);
-}
+ivec2 firstCell(Brick brick) { return ivec2(brick.firstCell & 0xffffu, brick.firstCell >> 16); }
+ivec2 lastCell(Brick brick) { return ivec2(brick.lastCell & 0xffffu, brick.lastCell >> 16); }
 
 int tileOf(float px) { return int(floor(clamp(px * (1.0 / float(kTileSize)), -1e6, 1e6))); }
 
@@ -50,14 +42,14 @@ int tileOf(float px) { return int(floor(clamp(px * (1.0 / float(kTileSize)), -1e
 /// last.zw, half-open; empty where last <= first.
 ivec4 tilesSeeing(Brick brick, GridLayout grid, OutputLayout outputs, vec4 box, float marginPx) {
     const float cellPx = 1.0 / grid.invCell;
-    const ivec4 cells = boxOf(brick, grid);
+    const ivec2 first = firstCell(brick), last = lastCell(brick);
     const ivec2 rim = grid.brickCount * grid.cellsPerBrick - 1;
-    vec2 low = grid.origin + vec2(cells.xy) * cellPx;
-    vec2 high = grid.origin + vec2(cells.zw + 1) * cellPx;
-    if (cells.x == 0) low.x = -kFarPx;
-    if (cells.y == 0) low.y = -kFarPx;
-    if (cells.z == rim.x) high.x = kFarPx;
-    if (cells.w == rim.y) high.y = kFarPx;
+    vec2 low = grid.origin + vec2(first) * cellPx;
+    vec2 high = grid.origin + vec2(last + 1) * cellPx;
+    if (first.x == 0) low.x = -kFarPx;
+    if (first.y == 0) low.y = -kFarPx;
+    if (last.x == rim.x) high.x = kFarPx;
+    if (last.y == rim.y) high.y = kFarPx;
     const vec2 a = brick.slopeMin * box.xy, b = brick.slopeMin * box.zw;
     const vec2 c = brick.slopeMax * box.xy, d = brick.slopeMax * box.zw;
     const vec2 shearMin = min(min(a, b), min(c, d));

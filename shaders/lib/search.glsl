@@ -1,7 +1,7 @@
 // One output against the bins. As host/reconstruct/search.cpp, where it is explained.
 //
-// Needs, declared before the include: positionAt(uint), cellStartAt(uint), brickAt(uint), listedBrick(uint),
-// which read the bins; a struct Sweep with a member `bool running`; and visit(Candidate, inout Sweep), called
+// Needs, declared before the include: positionAt(uint) and cellStartAt(uint), which read the bins;
+// listedBrick(uint) and listedId(uint), which read the lists; a struct Sweep with a member `bool running`; and visit(Candidate, inout Sweep), called
 // for each candidate until it clears `running`.
 #ifndef SLANT_LIB_SEARCH_GLSL
 #define SLANT_LIB_SEARCH_GLSL
@@ -11,19 +11,20 @@
 /// False where the search would have passed kMaxLoopIterations: the output must be done elsewhere.
 bool forEachCandidate(GridLayout grid, Output o, float radius, uint listBegin, uint listEnd, inout Sweep sweep) {
     const int side = grid.cellsPerBrick;
+    // In cells: where the output lies, how far its window moves with slope, and its half width.
+    const vec2 center = (o.xy - grid.origin) * grid.invCell, shear = o.uv * grid.invCell;
+    const float reach = radius * grid.invCell;
     int iterations = 0;
     for (uint entry = listBegin; entry < listEnd && sweep.running; ++entry) {
-        const uint id = listedBrick(entry);
-        const Brick brick = brickAt(id);
-        const vec2 a = brick.slopeMin * o.uv, b = brick.slopeMax * o.uv;
-        const vec2 low = (o.xy - max(a, b) - radius - grid.origin) * grid.invCell;
-        const vec2 high = (o.xy - min(a, b) + radius - grid.origin) * grid.invCell;
-        const ivec4 box = boxOf(brick, grid);
-        const ivec2 first = max(cellAt(grid, low), box.xy), last = min(cellAt(grid, high), box.zw);
+        const Brick brick = listedBrick(entry);
+        const vec2 a = brick.slopeMin * shear, b = brick.slopeMax * shear;
+        const ivec2 first = max(cellAt(grid, center - max(a, b) - reach), firstCell(brick));
+        const ivec2 last = min(cellAt(grid, center - min(a, b) + reach), lastCell(brick));
         ++iterations;
         if (iterations > kMaxLoopIterations) return false;
-        if (first.x > last.x) continue;
-        const ivec2 corner = cornerOf(brick, grid);
+        if (first.x > last.x || first.y > last.y) continue;
+        const uint id = listedId(entry);
+        const ivec2 corner = first / side * side;
         for (int row = first.y; row <= last.y && sweep.running; ++row) {
             const uint cell = (id * uint(side) + uint(row - corner.y)) * uint(side) - uint(corner.x);
             const uint begin = cellStartAt(cell + uint(first.x));

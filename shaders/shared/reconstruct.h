@@ -43,10 +43,10 @@ struct OutputLayout {
     uint seed;
 };
 
-/// An occupied brick: its place and bounds of its samples. One RGBA32UI texel, the floats as bits.
+/// An occupied brick: bounds of its samples. One RGBA32UI texel, the floats as bits. Cells count from the grid's origin.
 struct Brick {
-    uint place; // column | row << 16, in bricks
-    uint box;   // occupied cells of the brick: first column | first row << 8 | last column << 16 | last row << 24
+    uint firstCell; // column | row << 16
+    uint lastCell;  // column | row << 16, inclusive
     float slopeMin, slopeMax;
 };
 
