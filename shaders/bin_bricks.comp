@@ -1,5 +1,6 @@
 #version 460
-// The occupied bricks: place from the key, bounds as bin_bounds gathered them.
+// The occupied bricks: place from the key, bounds as bin_bounds gathered them; and where in cellStart their cell at
+// the grid's origin would stand (modulo 2^32), so that cells are found without dividing.
 #extension GL_GOOGLE_include_directive : require
 #include "lib/invocation.glsl"
 #include "lib/ordered_float.glsl"
@@ -9,6 +10,7 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform utextureBuffer brickKeys;
 layout(set = 0, binding = 1) uniform utextureBuffer bounds;
 layout(set = 0, binding = 2, rgba32ui) uniform writeonly uimageBuffer bricks;
+layout(set = 0, binding = 3, r32ui) uniform writeonly uimageBuffer cellBases;
 layout(push_constant) uniform Push { BinPush push; };
 
 void main() {
@@ -18,6 +20,8 @@ void main() {
     const ivec2 count = push.grid.brickCount;
     const ivec2 place = ivec2(key % count.x, key / count.x % count.y);
     const uvec2 corner = uvec2(place * push.grid.cellsPerBrick);
+    const uint side = uint(push.grid.cellsPerBrick);
+    imageStore(cellBases, int(i), uvec4(i * side * side - corner.y * side - corner.x));
     const uvec2 first = corner + uvec2(texelFetch(bounds, word + 2).x, texelFetch(bounds, word + 3).x);
     const uvec2 last = corner + uvec2(~texelFetch(bounds, word + 4).x, ~texelFetch(bounds, word + 5).x);
     imageStore(bricks, int(i),

@@ -5,7 +5,6 @@
 #include "lib/bins.glsl"
 #include "lib/candidate.glsl"
 #include "lib/grid.glsl"
-#include "lib/invocation.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 7, rgba32f) uniform writeonly imageBuffer dense;
@@ -37,20 +36,21 @@ void visit(Candidate candidate, inout Sweep sweep) {
 #include "lib/search.glsl"
 
 void main() {
-    const uint invocation =
-        linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
-    if (invocation >= push.count) return;
+    // The grid of workgroups is tiles x tiles x planes, so that nothing is divided: lavapipe does that lane by lane.
     const OutputLayout outputs = push.outputs;
     const GridLayout grid = push.grid;
-    const uint tiles = uint(outputs.tileCount.x * outputs.tileCount.y);
-    // Eight neighbouring lanes take two lens positions of a square of two by two pixels: of the ways to split a tile
-    // and a lens group this keeps their candidates most alike.
-    const uint groupSize = uint(min(kOutputsPerGroup, outputs.outputsPerPixel)), pair = min(groupSize, 2u);
-    const uint list = invocation / (64u * groupSize), group = list / tiles, tile = list - group * tiles;
-    const uint k = group * groupSize + invocation % pair + pair * (invocation / (4u * pair) % (groupSize / pair));
-    const uint quad = invocation / pair & 3u, block = invocation / (4u * groupSize) & 15u;
-    const ivec2 corner = kTileSize * ivec2(tile % uint(outputs.tileCount.x), tile / uint(outputs.tileCount.x));
-    const ivec2 position = corner + 2 * ivec2(block & 3u, block >> 2) + ivec2(quad & 1u, quad >> 1);
+    const int groupBits = push.groupBits; // 2^groupBits outputs of a pixel share a list
+    const uint group = gl_WorkGroupID.z >> groupBits;
+    const uint list = (group * uint(outputs.tileCount.y) + gl_WorkGroupID.y) * uint(outputs.tileCount.x) + gl_WorkGroupID.x;
+    // Of the 64 << groupBits outputs of this list: eight neighbouring lanes take two lens positions of a square of two
+    // by two pixels; of the ways to split a tile and a lens group this keeps their candidates most alike.
+    const uint place = (gl_WorkGroupID.z - (group << groupBits)) << 6 | gl_LocalInvocationIndex;
+    const int pairBits = min(groupBits, 1), restBits = groupBits - pairBits;
+    const uint pair = bitfieldExtract(place, 0, pairBits), quad = bitfieldExtract(place, pairBits, 2);
+    const uint rest = bitfieldExtract(place, pairBits + 2, restBits), block = place >> (groupBits + 2);
+    const uint k = (group << groupBits) + (rest << pairBits) + pair;
+    const ivec2 position = kTileSize * ivec2(gl_WorkGroupID.xy) + 2 * ivec2(block & 3u, block >> 2) +
+                           ivec2(quad & 1u, quad >> 1);
     if (position.x >= outputs.regionSize.x || position.y >= outputs.regionSize.y) return;
 
     const int index = push.firstOutput + int(k);

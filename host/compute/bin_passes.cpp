@@ -84,9 +84,10 @@ DeviceBins BinPasses::run(CommandList& commands, const LightField& field, const 
     commands.fill(bounds, 0xffffffffu);
     commands.dispatch(bounds_, {sorted.keys, positions, brickOfRecord, bounds, brickKeys}, push,
                       bounds_.gridFor(kept));
-    Buffer bricks(device_, TexelFormat::rgba32ui, push.brickTotal);
+    Buffer bricks(device_, TexelFormat::rgba32ui, push.brickTotal),
+        cellBases(device_, TexelFormat::r32ui, push.brickTotal);
     push.count = push.brickTotal;
-    commands.dispatch(bricks_, {brickKeys, bounds, bricks}, push, bricks_.gridFor(push.count));
+    commands.dispatch(bricks_, {brickKeys, bounds, bricks, cellBases}, push, bricks_.gridFor(push.count));
     Buffer cellStart(device_, TexelFormat::r32ui, push.brickTotal * cellsPerBrick + 1);
     push.count = uint(cellStart.texels());
     commands.dispatch(cells_, {sorted.keys, brickKeys, cellStart}, push, cells_.gridFor(push.count));
@@ -96,7 +97,8 @@ DeviceBins BinPasses::run(CommandList& commands, const LightField& field, const 
             std::move(positions),
             std::move(radiances),
             std::move(cellStart),
-            std::move(bricks)};
+            std::move(bricks),
+            std::move(cellBases)};
 }
 
 } // namespace slant

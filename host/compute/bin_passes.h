@@ -12,6 +12,7 @@ struct DeviceBins {
     Buffer positions, radiances; ///< records in cell order
     Buffer cellStart;            ///< brickTotal * cells of a brick + 1
     Buffer bricks;
+    Buffer cellBases; ///< see bin_bricks.comp
 };
 
 class BinPasses {

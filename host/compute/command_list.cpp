@@ -100,9 +100,9 @@ void requireFit(const Pass& pass, CommandList::Bindings buffers, std::size_t pus
         fail(fmt::format("{} buffers, the shader has {}", buffers.size(), interface.bindings.size()));
     if (pushBytes != interface.pushBytes)
         fail(fmt::format("{} bytes of push constants, the shader has {}", pushBytes, interface.pushBytes));
-    if (grid.x > limits.workgroupsX || grid.y > limits.workgroupsY)
-        fail(fmt::format("{} x {} workgroups, the device takes {} x {}", grid.x, grid.y, limits.workgroupsX,
-                         limits.workgroupsY));
+    if (grid.x > limits.workgroupsX || grid.y > limits.workgroupsY || grid.z > limits.workgroupsZ)
+        fail(fmt::format("{} x {} x {} workgroups, the device takes {} x {} x {}", grid.x, grid.y, grid.z,
+                         limits.workgroupsX, limits.workgroupsY, limits.workgroupsZ));
     auto buffer = buffers.begin();
     for (const ShaderBinding& binding : interface.bindings) {
         const TexelFormat format = (buffer++)->get().format();
@@ -189,7 +189,7 @@ CommandList::~CommandList() {
 void CommandList::dispatchBytes(const Pass& pass, Bindings buffers, std::span<const std::byte> push,
                                 Grid grid) {
     requireFit(pass, buffers, push.size(), grid);
-    if (grid.x == 0 || grid.y == 0) return;
+    if (grid.x == 0 || grid.y == 0 || grid.z == 0) return;
     checked("recording a dispatch", [&] {
         impl_->begin();
         const auto& commands = impl_->commands;
@@ -200,7 +200,7 @@ void CommandList::dispatchBytes(const Pass& pass, Bindings buffers, std::span<co
                                         impl_->describe(pass, buffers), {});
         commands.pushConstants<std::byte>(layout, vk::ShaderStageFlagBits::eCompute, 0,
                                           {std::uint32_t(push.size()), push.data()});
-        commands.dispatch(grid.x, grid.y, 1);
+        commands.dispatch(grid.x, grid.y, grid.z);
         impl_->end(pass.name());
     });
 }

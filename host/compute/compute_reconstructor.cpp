@@ -5,6 +5,8 @@
 #include "reconstruct/stage_timer.h"
 
 #include <algorithm>
+#include <bit>
+#include <optional>
 
 namespace slant {
 namespace {
@@ -124,6 +126,7 @@ private:
                 push.groupCount = uint(std::min(plan.groupsPerChunk, int(pattern.groups.size()) - group));
                 push.firstOutput = group * kOutputsPerGroup;
                 push.brickTotal = bins.brickTotal;
+                push.groupBits = std::countr_zero(unsigned(groupSize));
                 chunk(pattern, band, bins, listPasses, outputPasses, push, int(push.groupCount) * groupSize,
                       dense);
             }

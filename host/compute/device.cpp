@@ -112,6 +112,7 @@ DeviceLimits limitsOf(const vk::raii::PhysicalDevice& physical) {
         if (heap.flags & vk::MemoryHeapFlagBits::eDeviceLocal) result.heapBytes += heap.size;
     result.workgroupsX = limits.maxComputeWorkGroupCount[0];
     result.workgroupsY = limits.maxComputeWorkGroupCount[1];
+    result.workgroupsZ = limits.maxComputeWorkGroupCount[2];
     result.workgroupInvocations = limits.maxComputeWorkGroupInvocations;
     result.pushConstantBytes = limits.maxPushConstantsSize;
     result.sharedMemoryBytes = limits.maxComputeSharedMemorySize;

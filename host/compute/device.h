@@ -18,7 +18,7 @@ struct DeviceLimits {
     std::uint64_t texelBufferElements = 0;
     std::uint64_t allocationBytes = 0; ///< largest single allocation
     std::uint64_t heapBytes = 0;       ///< all memory of the device's own
-    std::uint32_t workgroupsX = 0, workgroupsY = 0;
+    std::uint32_t workgroupsX = 0, workgroupsY = 0, workgroupsZ = 0;
     std::uint32_t workgroupInvocations = 0;
     std::uint32_t pushConstantBytes = 0;
     std::uint32_t sharedMemoryBytes = 0;

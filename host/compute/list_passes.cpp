@@ -42,10 +42,11 @@ DeviceLists ListPasses::run(CommandList& commands, const DeviceBins& bins, Outpu
     Buffer start(device_, TexelFormat::r32ui, lists + 1);
     commands.dispatch(start_, {sorted.keys, start}, LowerBoundPush{entries, lists + 1},
                       start_.gridFor(lists + 1));
-    Buffer bricks(device_, TexelFormat::rgba32ui, entries);
-    commands.dispatch(gather_, {sorted.values, bins.bricks, bricks}, push, gather_.gridFor(entries));
+    Buffer bricks(device_, TexelFormat::rgba32ui, entries), cellBases(device_, TexelFormat::r32ui, entries);
+    commands.dispatch(gather_, {sorted.values, bins.bricks, bins.cellBases, bricks, cellBases}, push,
+                      gather_.gridFor(entries));
     commands.run();
-    return {std::move(start), std::move(sorted.values), std::move(bricks)};
+    return {std::move(start), std::move(sorted.values), std::move(bricks), std::move(cellBases)};
 }
 
 } // namespace slant

@@ -9,6 +9,7 @@ struct DeviceLists {
     Buffer start;  ///< groups * tiles + 1
     Buffer ids;    ///< of bricks, one an entry
     Buffer bricks; ///< the bricks themselves
+    Buffer cellBases;
 };
 
 class ListPasses {

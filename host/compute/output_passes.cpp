@@ -32,19 +32,19 @@ OutputPasses::Result OutputPasses::run(CommandList& commands, ListPasses& listPa
     reserve(dense.texels());
     commands.fill(counters_, 0);
     push.radiusPx = bins.grid.radiusPx;
-    push.count =
-        uint(planes) * uint(push.outputs.tileCount.x * push.outputs.tileCount.y) * kTileSize * kTileSize;
+    const Grid tiles{std::uint32_t(push.outputs.tileCount.x), std::uint32_t(push.outputs.tileCount.y),
+                     std::uint32_t(planes)};
     commands.dispatch(nearest_,
-                      {bins.positions, bins.radiances, bins.cellStart, lists.start, lists.ids, lists.bricks,
-                       pattern_, dense, counters_, visibilityList_, overflowList_},
-                      push, nearest_.gridFor(push.count));
+                      {bins.positions, bins.radiances, bins.cellStart, lists.start, lists.cellBases,
+                       lists.bricks, pattern_, dense, counters_, visibilityList_, overflowList_},
+                      push, tiles);
     commands.run();
 
     Result result;
     result.visibility = push.count = counters()[kVisibilityCount];
     const auto look = [&](const DeviceLists& in) {
         commands.dispatch(visibility_,
-                          {bins.positions, bins.radiances, bins.cellStart, in.start, in.ids, in.bricks,
+                          {bins.positions, bins.radiances, bins.cellStart, in.start, in.cellBases, in.bricks,
                            pattern_, visibilityList_, dense, counters_, holeList_, overflowList_},
                           push, visibility_.gridFor(push.count));
         commands.run();

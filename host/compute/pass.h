@@ -13,7 +13,7 @@ namespace slant {
 
 /// Workgroups of a dispatch.
 struct Grid {
-    std::uint32_t x = 1, y = 1;
+    std::uint32_t x = 1, y = 1, z = 1;
 };
 
 class Pass {

@@ -8,7 +8,7 @@ layout(set = 0, binding = 0) uniform textureBuffer positions;   // p.x, p.y, slo
 layout(set = 0, binding = 1) uniform textureBuffer radiances;   // r, g, b, alpha
 layout(set = 0, binding = 2) uniform utextureBuffer cellStart;
 layout(set = 0, binding = 3) uniform utextureBuffer listStart;
-layout(set = 0, binding = 4) uniform utextureBuffer listIds;    // number of each listed brick
+layout(set = 0, binding = 4) uniform utextureBuffer listCellBases; // of each listed brick
 layout(set = 0, binding = 5) uniform utextureBuffer listBricks; // the brick itself: one fetch where most are passed over
 layout(set = 0, binding = 6) uniform utextureBuffer pattern;
 layout(push_constant) uniform Push { OutputPush push; };
@@ -16,6 +16,6 @@ layout(push_constant) uniform Push { OutputPush push; };
 vec4 positionAt(uint record) { return texelFetch(positions, int(record)); }
 uint cellStartAt(uint cell) { return texelFetch(cellStart, int(cell)).x; }
 Brick listedBrick(uint entry) { return brickOf(texelFetch(listBricks, int(entry))); }
-uint listedId(uint entry) { return texelFetch(listIds, int(entry)).x; }
+uint listedCellBase(uint entry) { return texelFetch(listCellBases, int(entry)).x; }
 vec3 radianceAt(uint record) { return texelFetch(radiances, int(record)).rgb; }
 #endif

@@ -1,7 +1,7 @@
 // One output against the bins. As host/reconstruct/search.cpp, where it is explained.
 //
 // Needs, declared before the include: positionAt(uint) and cellStartAt(uint), which read the bins;
-// listedBrick(uint) and listedId(uint), which read the lists; a struct Sweep with a member `bool running`; and visit(Candidate, inout Sweep), called
+// listedBrick(uint) and listedCellBase(uint), which read the lists; a struct Sweep with a member `bool running`; and visit(Candidate, inout Sweep), called
 // for each candidate until it clears `running`.
 #ifndef SLANT_LIB_SEARCH_GLSL
 #define SLANT_LIB_SEARCH_GLSL
@@ -23,10 +23,9 @@ bool forEachCandidate(GridLayout grid, Output o, float radius, uint listBegin, u
         ++iterations;
         if (iterations > kMaxLoopIterations) return false;
         if (first.x > last.x || first.y > last.y) continue;
-        const uint id = listedId(entry);
-        const ivec2 corner = first / side * side;
+        const uint cellBase = listedCellBase(entry);
         for (int row = first.y; row <= last.y && sweep.running; ++row) {
-            const uint cell = (id * uint(side) + uint(row - corner.y)) * uint(side) - uint(corner.x);
+            const uint cell = cellBase + uint(row * side);
             const uint begin = cellStartAt(cell + uint(first.x));
             const uint end = cellStartAt(cell + uint(last.x) + 1u);
             iterations += int(end - begin) + 1;

@@ -43,15 +43,16 @@ struct OutputLayout {
     uint seed;
 };
 
-/// An occupied brick: bounds of its samples. One RGBA32UI texel, the floats as bits. Cells count from the grid's origin.
+/// An occupied brick: bounds of its samples. One RGBA32UI texel, the floats as bits. Cells count from the
+/// grid's origin.
 struct Brick {
     uint firstCell; // column | row << 16
     uint lastCell;  // column | row << 16, inclusive
     float slopeMin, slopeMax;
 };
 
-/// Words of a brick while its bounds are gathered, each the least of what its samples have: slope in ordered bits,
-/// its complement, column, row, and the complements of those.
+/// Words of a brick while its bounds are gathered, each the least of what its samples have: slope in ordered
+/// bits, its complement, column, row, and the complements of those.
 SLANT_SHARED_CONSTANT uint kBoundWords = 6u;
 
 /// Words of the counters that passes append to.
@@ -81,6 +82,7 @@ struct OutputPush {
     uint groupCount;
     uint brickTotal;
     float radiusPx; // lists: margin around a tile; visibility: base radius
+    int groupBits;  // 2^groupBits = min(kOutputsPerGroup, outputsPerPixel)
 };
 
 /// pixel_filter: planes of dense samples into a band of the film.
