@@ -36,20 +36,22 @@ void visit(Candidate candidate, inout Sweep sweep) {
 #include "lib/search.glsl"
 
 void main() {
-    // The grid of workgroups is tiles x tiles x planes, so that nothing is divided: lavapipe does that lane by lane.
+    // The grid of workgroups is (tiles x parts of a list) x tiles x lens groups: nothing is divided, which lavapipe does
+    // lane by lane, and workgroups that share a list follow one another.
     const OutputLayout outputs = push.outputs;
     const GridLayout grid = push.grid;
     const int groupBits = push.groupBits; // 2^groupBits outputs of a pixel share a list
-    const uint group = gl_WorkGroupID.z >> groupBits;
-    const uint list = (group * uint(outputs.tileCount.y) + gl_WorkGroupID.y) * uint(outputs.tileCount.x) + gl_WorkGroupID.x;
+    const uint group = gl_WorkGroupID.z;
+    const uvec2 tile = uvec2(gl_WorkGroupID.x >> groupBits, gl_WorkGroupID.y);
+    const uint list = (group * uint(outputs.tileCount.y) + tile.y) * uint(outputs.tileCount.x) + tile.x;
     // Of the 64 << groupBits outputs of this list: eight neighbouring lanes take two lens positions of a square of two
     // by two pixels; of the ways to split a tile and a lens group this keeps their candidates most alike.
-    const uint place = (gl_WorkGroupID.z - (group << groupBits)) << 6 | gl_LocalInvocationIndex;
+    const uint place = bitfieldExtract(gl_WorkGroupID.x, 0, groupBits) << 6 | gl_LocalInvocationIndex;
     const int pairBits = min(groupBits, 1), restBits = groupBits - pairBits;
     const uint pair = bitfieldExtract(place, 0, pairBits), quad = bitfieldExtract(place, pairBits, 2);
     const uint rest = bitfieldExtract(place, pairBits + 2, restBits), block = place >> (groupBits + 2);
     const uint k = (group << groupBits) + (rest << pairBits) + pair;
-    const ivec2 position = kTileSize * ivec2(gl_WorkGroupID.xy) + 2 * ivec2(block & 3u, block >> 2) +
+    const ivec2 position = kTileSize * ivec2(tile) + 2 * ivec2(block & 3u, block >> 2) +
                            ivec2(quad & 1u, quad >> 1);
     if (position.x >= outputs.regionSize.x || position.y >= outputs.regionSize.y) return;
 

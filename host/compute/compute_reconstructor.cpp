@@ -154,7 +154,7 @@ private:
             StageTimer timer(report_, "reconstruct", "outputs");
             const DeviceLists lists = listPasses.run(commands_, bins, push, 2 * bins.grid.radiusPx);
             const OutputPasses::Result result =
-                outputPasses.run(commands_, listPasses, bins, lists, push, dense, planes);
+                outputPasses.run(commands_, listPasses, bins, lists, push, dense);
             if (!result.overflowed.empty()) finishOnCpu(pattern, band, push, result.overflowed, dense);
             report_.visibility += result.visibility;
             report_.widened += result.widened;

@@ -27,13 +27,12 @@ OutputPasses::Counters OutputPasses::counters() const {
 }
 
 OutputPasses::Result OutputPasses::run(CommandList& commands, ListPasses& listPasses, const DeviceBins& bins,
-                                       const DeviceLists& lists, OutputPush push, const Buffer& dense,
-                                       int planes) {
+                                       const DeviceLists& lists, OutputPush push, const Buffer& dense) {
     reserve(dense.texels());
     commands.fill(counters_, 0);
     push.radiusPx = bins.grid.radiusPx;
-    const Grid tiles{std::uint32_t(push.outputs.tileCount.x), std::uint32_t(push.outputs.tileCount.y),
-                     std::uint32_t(planes)};
+    const Grid tiles{std::uint32_t(push.outputs.tileCount.x << push.groupBits),
+                     std::uint32_t(push.outputs.tileCount.y), push.groupCount};
     commands.dispatch(nearest_,
                       {bins.positions, bins.radiances, bins.cellStart, lists.start, lists.cellBases,
                        lists.bricks, pattern_, dense, counters_, visibilityList_, overflowList_},

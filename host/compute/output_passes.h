@@ -19,7 +19,7 @@ public:
     /// Fills `dense` (planes of region pixels); `lists` have a margin of 2 R. Runs on `commands`, which must
     /// be empty, and leaves it empty.
     Result run(CommandList& commands, ListPasses& listPasses, const DeviceBins& bins,
-               const DeviceLists& lists, OutputPush push, const Buffer& dense, int planes);
+               const DeviceLists& lists, OutputPush push, const Buffer& dense);
 
 private:
     using Counters = std::vector<uint>;
