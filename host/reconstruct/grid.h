@@ -9,7 +9,8 @@
 
 namespace slant {
 
-/// Radius of the largest empty circle of a pixel pattern, in pixels (METHODS: within 13 %).
+/// The radius R of the search, in pixels: a little over that of the largest empty circle of a sheared pattern.
+/// On `spheres` the error is flat from 1.5 to 2 / sqrt(spp).
 float emptyCircleRadius(int samplesPerPixel);
 
 /// Pinhole position of a sample.
