@@ -9,8 +9,8 @@
 
 namespace slant {
 
-/// The radius R of the search, in pixels: a little over that of the largest empty circle of a sheared pattern.
-/// On `spheres` the error is flat from 1.5 to 2 / sqrt(spp).
+/// The radius R of the search, in pixels: a little over that of the largest empty circle of a sheared
+/// pattern. On `spheres` the error is flat from 1.5 to 2 / sqrt(spp).
 float emptyCircleRadius(int samplesPerPixel);
 
 /// Pinhole position of a sample.
