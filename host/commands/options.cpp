@@ -1,6 +1,7 @@
 #include "commands/options.h"
 
 #include "base/suggest.h"
+#include "reconstruct/output_pattern.h"
 
 #include <algorithm>
 #include <array>
@@ -62,8 +63,16 @@ void addSamplingOptions(CLI::App& command, CommonOptions& options) {
 }
 
 void addReconstructionOptions(CLI::App& command, CommonOptions& options) {
-    addNumber<int>(command, "--out-spp", options.outSpp, 1, kMaxSamplesPerPixel,
-                   "reconstructed samples a pixel (default 128)");
+    const auto outSpp = [&options](const std::string& text) {
+        const auto count = parseNumber<int>(text);
+        if (!count || !isOutputCount(*count))
+            throw CLI::ValidationError("--out-spp", fmt::format("'{}' is not a power of two from 1 to {}",
+                                                                text, kMaxOutputsPerPixel));
+        options.outSpp = *count;
+    };
+    command
+        .add_option_function<std::string>("--out-spp", outSpp, "reconstructed samples a pixel (default 128)")
+        ->type_name("N");
     const auto method = [&options](const std::string& text) {
         if (std::find(kMethods.begin(), kMethods.end(), text) == kMethods.end())
             throw CLI::ValidationError("--method",

@@ -114,10 +114,10 @@ vec2 concentricDisc(vec2 square) {
 }
 
 OutputPattern makeOutputPattern(int outputsPerPixel) {
-    if (outputsPerPixel < 1 || outputsPerPixel > 4096 || !std::has_single_bit(unsigned(outputsPerPixel)))
-        throw Error(
-            ErrorCode::usage,
-            fmt::format("outputs a pixel must be a power of two from 1 to 4096, not {}", outputsPerPixel));
+    if (!isOutputCount(outputsPerPixel))
+        throw Error(ErrorCode::usage,
+                    fmt::format("outputs a pixel must be a power of two from 1 to {}, not {}",
+                                kMaxOutputsPerPixel, outputsPerPixel));
     const auto lensX = sobolDirections(0, 0, {}), lensY = sobolDirections(1, 0, {1});
     const auto pixelX = sobolDirections(2, 1, {1, 3}), pixelY = sobolDirections(3, 1, {1, 3, 1});
     const auto time = sobolDirections(3, 2, {1, 1, 1});

@@ -7,6 +7,7 @@
 #pragma once
 #include "shared/reconstruct.h"
 
+#include <bit>
 #include <vector>
 
 namespace slant {
@@ -25,7 +26,15 @@ struct OutputPattern {
     int outputsPerPixel() const { return int(entries.size()); }
 };
 
-/// Throws Error(usage) unless outputsPerPixel is a power of two from 1 to 4096.
+inline constexpr int kMaxOutputsPerPixel = 4096;
+
+/// A power of two from 1 to kMaxOutputsPerPixel.
+constexpr bool isOutputCount(int outputsPerPixel) {
+    return outputsPerPixel >= 1 && outputsPerPixel <= kMaxOutputsPerPixel &&
+           std::has_single_bit(unsigned(outputsPerPixel));
+}
+
+/// Throws Error(usage) unless isOutputCount(outputsPerPixel).
 OutputPattern makeOutputPattern(int outputsPerPixel);
 
 /// One output: where it lies in pixel, lens and time.
