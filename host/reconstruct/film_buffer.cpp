@@ -86,6 +86,7 @@ DenseSamples denseFromInput(const LightField& field, const Rect& region) {
                                           std::size_t(x - field.bounds.x0);
                 for (std::size_t k = 0; k < spp; ++k) {
                     const LightFieldSample& s = field.samples[pixel * spp + k];
+                    if (std::isnan(s.slope)) continue; // disabled by sanitize
                     dense.samples[k * region.area() + std::size_t(j) * region.width() + i] =
                         vec4(s.r, s.g, s.b, positionCode(s.x - float(x), s.y - float(y)));
                 }

@@ -43,7 +43,8 @@ private:
     std::vector<vec4> sums_;
 };
 
-/// Input samples as dense planes; pixels of `region` outside `bounds` have none.
+/// Input samples as dense planes, without those that sanitize disabled; pixels of `region` outside `bounds`
+/// have none.
 DenseSamples denseFromInput(const LightField& field, const Rect& region);
 
 } // namespace slant
