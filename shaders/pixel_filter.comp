@@ -32,9 +32,9 @@ void main() {
     const ivec2 reach = push.reach, size = push.regionSize;
     const int end = push.firstPlane + push.planeCount;
     vec4 sum = imageLoad(film, place);
-    for (int block = push.firstPlane; block < end; block += kOutputsPerGroup) {
+    for (int block = push.firstPlane; block < end; block += kFilmBlock) {
         vec4 part = vec4(0.0);
-        for (int k = block; k < min(block + kOutputsPerGroup, end); ++k)
+        for (int k = block; k < min(block + kFilmBlock, end); ++k)
             for (int dy = -reach.y; dy <= reach.y; ++dy) {
                 const int row = (k * size.y + pixel.y + reach.y + dy) * size.x + pixel.x + reach.x;
                 for (int dx = -reach.x; dx <= reach.x; ++dx)

@@ -48,7 +48,7 @@ void main() {
     const Output o = outputAt(outputs.regionOrigin + position, index, texelFetch(pattern, index), push.lensCells,
                               outputs.seed);
     const int list =
-        (int(k) / kOutputsPerGroup * outputs.tileCount.y + tile.y) * outputs.tileCount.x + tile.x;
+        ((int(k) >> push.groupBits) * outputs.tileCount.y + tile.y) * outputs.tileCount.x + tile.x;
     Sweep sweep = Sweep(true, push.radiusPx, push.grid.surfaceGap, noSurface());
     const bool complete = forEachCandidate(push.grid, o, 2.0 * push.radiusPx, texelFetch(listStart, list).x,
                                            texelFetch(listStart, list + 1).x, sweep);

@@ -12,7 +12,7 @@ namespace slant::commands {
 namespace {
 
 /// Samples of a pixel traced at a time, a multiple of the film's block.
-constexpr int kBatch = 4 * kOutputsPerGroup;
+constexpr int kBatch = 4 * kFilmBlock;
 
 /// The same pattern and pixel filter as `render --method box`, at any number of samples in bounded memory.
 Image bruteForce(const Scene& scene, const Tracer& tracer, std::uint64_t seed, Monitor& monitor) {
@@ -26,8 +26,7 @@ Image bruteForce(const Scene& scene, const Tracer& tracer, std::uint64_t seed, M
         batch.samples.resize(batch.bounds.area() * std::size_t(batch.samplesPerPixel));
         tracer.trace(batch.bounds, first, batch.samplesPerPixel, scene.pixelSamples, seed, batch.samples, {},
                      monitor);
-        film.accumulate(denseFromInput(batch, batch.bounds), film.frame().y0, film.frame().y1,
-                        kOutputsPerGroup);
+        film.accumulate(denseFromInput(batch, batch.bounds), film.frame().y0, film.frame().y1, kFilmBlock);
     }
     monitor.endStage();
     std::uint64_t emptyPixels = 0;

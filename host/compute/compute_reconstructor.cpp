@@ -5,7 +5,6 @@
 #include "reconstruct/stage_timer.h"
 
 #include <algorithm>
-#include <bit>
 #include <optional>
 
 namespace slant {
@@ -43,7 +42,7 @@ public:
         push.firstRow = band.y0 - frame_.y0;
         push.rowCount = band.y1 - band.y0;
         const int taps = (2 * table_.reach.x + 1) * (2 * table_.reach.y + 2);
-        const int most = std::max(1, kMaxLoopIterations / (taps * kOutputsPerGroup)) * kOutputsPerGroup;
+        const int most = std::max(1, kMaxLoopIterations / (taps * kFilmBlock)) * kFilmBlock;
         for (int first = 0; first < planes; first += most) {
             push.firstPlane = first;
             push.planeCount = std::min(most, planes - first);
@@ -106,12 +105,12 @@ private:
     }
 
     void full() {
-        const OutputPattern pattern = makeOutputPattern(options_.outputsPerPixel);
-        const Plan plan = planOutputs(field_.frame, film_.filter(), pattern, maxSamples_);
         const DeviceBins bins = bin();
+        const OutputPattern pattern = makeOutputPattern(options_.outputsPerPixel, largestSlope(bins.grid));
+        const Plan plan = planOutputs(field_.frame, film_.filter(), pattern, maxSamples_);
         ListPasses listPasses(device_, pattern);
         OutputPasses outputPasses(device_, pattern);
-        const int groupSize = std::min(kOutputsPerGroup, pattern.outputsPerPixel());
+        const int groupSize = pattern.groupSize();
         Buffer dense(device_, TexelFormat::rgba32f,
                      plan.bands.front().region.area() * std::uint64_t(plan.groupsPerChunk * groupSize));
 
@@ -124,9 +123,9 @@ private:
                 push.lensCells = pattern.lensCells;
                 push.firstGroup = uint(group);
                 push.groupCount = uint(std::min(plan.groupsPerChunk, int(pattern.groups.size()) - group));
-                push.firstOutput = group * kOutputsPerGroup;
+                push.firstOutput = group * groupSize;
                 push.brickTotal = bins.brickTotal;
-                push.groupBits = std::countr_zero(unsigned(groupSize));
+                push.groupBits = pattern.groupBits;
                 chunk(pattern, band, bins, listPasses, outputPasses, push, int(push.groupCount) * groupSize,
                       dense);
             }

@@ -18,8 +18,7 @@ CpuChunk::CpuChunk(const Bins& bins, const OutputPattern& pattern, const Band& b
                    std::size_t firstGroup, std::size_t groupCount)
     : bins_(bins), pattern_(pattern), layout_(layoutOf(band, pattern, seed)),
       groups_(pattern.groups.data() + firstGroup, groupCount),
-      firstOutput_(int(firstGroup) * kOutputsPerGroup),
-      outputCount_(std::min(int(groupCount) * kOutputsPerGroup, pattern.outputsPerPixel() - firstOutput_)) {
+      firstOutput_(int(firstGroup) << pattern.groupBits), outputCount_(int(groupCount) << pattern.groupBits) {
     dense.region = band.region;
     dense.samples.resize(band.region.area() * outputCount_);
 }
@@ -43,7 +42,8 @@ CpuChunk::Slot CpuChunk::slotAt(ivec2 position, int output) const {
     const std::size_t tiles = std::size_t(layout_.tileCount.x) * layout_.tileCount.y;
     const ivec2 tile = position / kTileSize;
     return {output * dense.region.area() + std::size_t(position.y) * layout_.regionSize.x + position.x,
-            output / kOutputsPerGroup * tiles + std::size_t(tile.y) * layout_.tileCount.x + tile.x,
+            std::size_t(output >> pattern_.groupBits) * tiles + std::size_t(tile.y) * layout_.tileCount.x +
+                tile.x,
             layout_.regionOrigin + position, output};
 }
 

@@ -30,15 +30,15 @@ void filterBox(const LightField& field, const ReconstructOptions& options, FilmB
          planBands(field.frame, film.filter(), field.samplesPerPixel, maxDenseSamples(options))) {
         const DenseSamples dense = denseFromInput(field, band.region);
         observe(observer, "dense", dense.samples);
-        film.accumulate(dense, band.y0, band.y1, kOutputsPerGroup);
+        film.accumulate(dense, band.y0, band.y1, kFilmBlock);
     }
 }
 
 void filterFull(const LightField& field, const ReconstructOptions& options, FilmBuffer& film,
                 Monitor& monitor, ReconstructReport& report, StageObserver* observer) {
-    const OutputPattern pattern = makeOutputPattern(options.outputsPerPixel);
-    const Plan plan = planOutputs(field.frame, film.filter(), pattern, maxDenseSamples(options));
     const Bins bins = timedBins(field, outputRegion(field.frame, film.filter()), report);
+    const OutputPattern pattern = makeOutputPattern(options.outputsPerPixel, largestSlope(bins.grid));
+    const Plan plan = planOutputs(field.frame, film.filter(), pattern, maxDenseSamples(options));
     observe(observer, "bin.bricks", bins.bricks);
     observe(observer, "bin.cells", bins.cellStart);
     observe(observer, "bin.positions", bins.positions);
@@ -61,7 +61,7 @@ void filterFull(const LightField& field, const ReconstructOptions& options, Film
             observe(observer, "dense", chunk.dense.samples);
             StageTimer timer(report, "pixel_filter", "outputs");
             timer.items = chunk.dense.samples.size();
-            film.accumulate(chunk.dense, band.y0, band.y1, kOutputsPerGroup);
+            film.accumulate(chunk.dense, band.y0, band.y1, kFilmBlock);
         }
     monitor.endStage();
 }

@@ -69,6 +69,11 @@ bool reaches(const LightFieldSample& s, const Rect& region, float marginPx) {
            p.y + reach >= float(region.y0) && p.y - reach <= float(region.y1);
 }
 
+float largestSlope(const GridLayout& grid) {
+    return std::max(std::abs(grid.slopeMin),
+                    std::abs(grid.slopeMin + float(grid.bucketCount) / grid.invBucket));
+}
+
 GridLayout chooseGrid(const LightField& field, const Rect& region, float marginPx) {
     Bounds bounds = boundsOf(field, region, marginPx);
     GridLayout grid{};

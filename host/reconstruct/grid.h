@@ -21,6 +21,9 @@ inline vec2 pinholePosition(const LightFieldSample& s) {
 /// Whether any output in `region` can come to use this sample (false for disabled samples).
 bool reaches(const LightFieldSample& sample, const Rect& region, float marginPx);
 
+/// The largest slope of the grid's buckets, to either side.
+float largestSlope(const GridLayout& grid);
+
 /// Lays the grid over the samples that reach `region`, with fewer than 2^32 cells in all, so that a sort key
 /// has 32 bits. What lies further off than half the picture goes into the bricks of the rim and the first and
 /// last bucket, which reach to infinity. `marginPx` is the widest search.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 namespace slant {
 namespace {
@@ -78,6 +79,17 @@ LensBox groupBox(const OutputPattern& pattern, std::size_t first, std::size_t la
     return lensBox(low, high);
 }
 
+/// The lens group of 2^bits of M outputs is about 2 sqrt(2^bits / M) lens radii wide; what it sees spreads by
+/// that times the slope. A spread of a brick is worth the sharing.
+int groupBitsFor(int outputsPerPixel, float slopePx) {
+    constexpr float kSpreadPx = 16;
+    int bits = 0;
+    while ((2 << bits) <= std::min(outputsPerPixel, kFilmBlock) &&
+           (bits == 0 || 2 * std::sqrt(float(2 << bits) / float(outputsPerPixel)) * slopePx <= kSpreadPx))
+        ++bits;
+    return bits;
+}
+
 uint hash(uint x) {
     x ^= x >> 16;
     x *= 0x7feb352du;
@@ -113,7 +125,7 @@ vec2 concentricDisc(vec2 square) {
     return wide ? vec2(r * cosine, r * sine) : vec2(r * sine, r * cosine);
 }
 
-OutputPattern makeOutputPattern(int outputsPerPixel) {
+OutputPattern makeOutputPattern(int outputsPerPixel, float slopePx) {
     if (!isOutputCount(outputsPerPixel))
         throw Error(ErrorCode::usage,
                     fmt::format("outputs a pixel must be a power of two from 1 to {}, not {}",
@@ -135,9 +147,10 @@ OutputPattern makeOutputPattern(int outputsPerPixel) {
     std::sort(pattern.entries.begin(), pattern.entries.end(), [](const auto& left, const auto& right) {
         return morton(left.w & 0xffffu, left.w >> 16) < morton(right.w & 0xffffu, right.w >> 16);
     });
-    for (std::size_t first = 0; first < pattern.entries.size(); first += kOutputsPerGroup)
-        pattern.groups.push_back(
-            groupBox(pattern, first, std::min(first + kOutputsPerGroup, pattern.entries.size())));
+    pattern.groupBits = groupBitsFor(outputsPerPixel, slopePx);
+    const auto size = std::size_t(pattern.groupSize());
+    for (std::size_t first = 0; first < pattern.entries.size(); first += size)
+        pattern.groups.push_back(groupBox(pattern, first, first + size));
     return pattern;
 }
 

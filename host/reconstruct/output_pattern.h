@@ -21,9 +21,11 @@ struct OutputPattern {
     /// One an output: Sobol' bits, bit-reversed, of x, y and time; lens cell (column | row << 16).
     std::vector<glm::uvec4> entries;
     ivec2 lensCells{1, 1};       ///< columns, rows of the lens grid; powers of two
-    std::vector<LensBox> groups; ///< one for every kOutputsPerGroup entries (or for the rest)
+    int groupBits = 0;           ///< 2^groupBits consecutive entries make a group
+    std::vector<LensBox> groups; ///< lens positions of each group
 
     int outputsPerPixel() const { return int(entries.size()); }
+    int groupSize() const { return 1 << groupBits; }
 };
 
 inline constexpr int kMaxOutputsPerPixel = 4096;
@@ -34,8 +36,9 @@ constexpr bool isOutputCount(int outputsPerPixel) {
            std::has_single_bit(unsigned(outputsPerPixel));
 }
 
-/// Throws Error(usage) unless isOutputCount(outputsPerPixel).
-OutputPattern makeOutputPattern(int outputsPerPixel);
+/// Groups are of up to kFilmBlock outputs, fewer where `slopePx`, the largest slope to either side, would
+/// spread them over the picture. Throws Error(usage) unless isOutputCount(outputsPerPixel).
+OutputPattern makeOutputPattern(int outputsPerPixel, float slopePx);
 
 /// One output: where it lies in pixel, lens and time.
 struct Output {

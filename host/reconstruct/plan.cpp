@@ -46,14 +46,15 @@ OutputLayout layoutOf(const Band& band, const OutputPattern& pattern, std::uint6
 
 Plan planOutputs(const Rect& frame, const FilterTable& filter, const OutputPattern& pattern,
                  std::uint64_t maxSamples) {
-    const int groupSize = std::min(kOutputsPerGroup, pattern.outputsPerPixel());
+    const int block = std::min(kFilmBlock, pattern.outputsPerPixel());
     Plan plan;
-    plan.bands = planBands(frame, filter, groupSize, maxSamples);
+    plan.bands = planBands(frame, filter, block, maxSamples);
     for (const Band& band : plan.bands)
         plan.outputs += band.region.area() * std::uint64_t(pattern.outputsPerPixel());
-    const std::uint64_t samplesPerGroup = plan.bands.front().region.area() * groupSize;
-    plan.groupsPerChunk =
-        int(std::clamp<std::uint64_t>(maxSamples / samplesPerGroup, 1, pattern.groups.size()));
+    const std::uint64_t blocksThatFit = maxSamples / (plan.bands.front().region.area() * block);
+    const auto blocks =
+        std::clamp<std::uint64_t>(blocksThatFit, 1, std::uint64_t(pattern.outputsPerPixel() / block));
+    plan.groupsPerChunk = int(blocks) * block / pattern.groupSize();
     return plan;
 }
 

@@ -31,7 +31,7 @@ OutputLayout layoutOf(const Band& band, const OutputPattern& pattern, std::uint6
 
 struct Plan {
     std::vector<Band> bands;
-    int groupsPerChunk = 1;
+    int groupsPerChunk = 1;    ///< whole film blocks
     std::uint64_t outputs = 0; ///< in all
 };
 

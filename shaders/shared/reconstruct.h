@@ -7,8 +7,10 @@ SLANT_SHARED_BEGIN
 
 /// Outputs are reconstructed in square tiles of this many pixels a side; one workgroup is one tile.
 SLANT_SHARED_CONSTANT int kTileSize = 8;
-/// Outputs of a pixel that share a lens group, and so a list of bricks.
-SLANT_SHARED_CONSTANT int kOutputsPerGroup = 8;
+/// Dense samples of a pixel that are summed up before they go into the film, so that chunks of any number of
+/// whole blocks give the same film; and the most outputs of a pixel that share a lens group, and so a list of
+/// bricks.
+SLANT_SHARED_CONSTANT int kFilmBlock = 8;
 /// A surface of fewer samples than this is merged into the next one behind it.
 SLANT_SHARED_CONSTANT int kMinSurfaceSamples = 4;
 /// Positions of outputs inside their pixel are multiples of 1 / kSubpixels (plus half a step).
@@ -82,7 +84,7 @@ struct OutputPush {
     uint groupCount;
     uint brickTotal;
     float radiusPx; // lists: margin around a tile; visibility: base radius
-    int groupBits;  // 2^groupBits = min(kOutputsPerGroup, outputsPerPixel)
+    int groupBits;  // 2^groupBits outputs of a pixel share a list
 };
 
 /// pixel_filter: planes of dense samples into a band of the film.
