@@ -15,9 +15,10 @@ SLANT_SHARED_CONSTANT int kFilmBlock = 8;
 SLANT_SHARED_CONSTANT int kMinSurfaceSamples = 4;
 /// Positions of outputs inside their pixel are multiples of 1 / kSubpixels (plus half a step).
 SLANT_SHARED_CONSTANT int kSubpixels = 4096;
-/// An invocation stops before it has looked at more candidates than this, and the output is counted as
-/// overflowed: lavapipe breaks loops after 65,535 iterations.
-SLANT_SHARED_CONSTANT int kMaxLoopIterations = 60000;
+/// An invocation stops before its loops have taken more steps than this, and the output is counted as
+/// overflowed. lavapipe breaks loops in silence after 65,535 steps of a vector of up to 16 invocations, which
+/// takes every step that any of them takes.
+SLANT_SHARED_CONSTANT int kMaxLoopIterations = 4000;
 /// Sort key of a sample that no output can use.
 SLANT_SHARED_CONSTANT uint kNotBinned = 0xffffffffu;
 
