@@ -1,64 +1,194 @@
 // The compute path against the CPU path, stage by stage, to the bit.
 #include "compute/compute_reconstructor.h"
 #include "reconstruct/cpu_reconstructor.h"
+#include "reconstruct/plan.h"
+#include "support/stages.h"
 #include "support/synthetic.h"
 #include "support/vulkan_fixture.h"
 
-#include <cstring>
+#include <cmath>
 
 namespace slant {
 namespace {
 
-struct Stages : StageObserver {
-    void stage(const std::string& name, std::span<const uint> words) override {
-        names.push_back(name);
-        contents.emplace_back(words.begin(), words.end());
-    }
-    std::vector<std::string> names;
-    std::vector<std::vector<uint>> contents;
-};
+using test::expectEqual;
+using test::Reconstruction;
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 class ReconstructParity : public test::VulkanTest {
 protected:
-    static Stages run(Reconstructor& reconstructor, const LightField& field,
-                      const ReconstructOptions& options) {
-        Stages stages;
-        SilentMonitor monitor;
-        ReconstructReport report;
-        const Image image = reconstructor.reconstruct(field, options, monitor, report, &stages);
-        EXPECT_EQ(report.emptyPixels, 0u);
-        return stages;
+    static LightField makeField(Rect frame, int spp) {
+        LightField field = synthetic::sample(synthetic::discsOverChecks(), frame, 15, spp, 7);
+        EXPECT_EQ(sanitize(field).total(), 0u);
+        return field;
     }
 
-    static void expectEqual(const Stages& expected, const Stages& got) {
-        ASSERT_EQ(expected.names, got.names);
-        for (std::size_t i = 0; i < expected.names.size(); ++i) {
-            ASSERT_EQ(expected.contents[i].size(), got.contents[i].size()) << expected.names[i];
-            for (std::size_t word = 0; word < expected.contents[i].size(); ++word)
-                ASSERT_EQ(expected.contents[i][word], got.contents[i][word])
-                    << "stage " << i << " '" << expected.names[i] << "', word " << word << ": expected "
-                    << std::bit_cast<float>(expected.contents[i][word]) << ", got "
-                    << std::bit_cast<float>(got.contents[i][word]);
-        }
+    static ReconstructOptions optionsOf(Method method, int outputsPerPixel = 16) {
+        ReconstructOptions options;
+        options.method = method;
+        options.outputsPerPixel = outputsPerPixel;
+        return options;
+    }
+
+    static Reconstruction compute(const LightField& field, const ReconstructOptions& options) {
+        ComputeReconstructor reconstructor(device());
+        return test::run(reconstructor, field, options);
+    }
+
+    /// The compute run, after it was found equal to the CPU's and all finite.
+    static Reconstruction runBoth(const LightField& field, const ReconstructOptions& options) {
+        CpuReconstructor cpu;
+        const Reconstruction expected = test::run(cpu, field, options);
+        Reconstruction got = compute(field, options);
+        expectEqual(expected.stages, got.stages);
+        EXPECT_EQ(expected.report.emptyPixels, got.report.emptyPixels);
+        EXPECT_EQ(expected.report.holes, got.report.holes);
+        EXPECT_EQ(expected.report.outputs, got.report.outputs);
+        for (const float value : got.image.pixels) EXPECT_TRUE(std::isfinite(value));
+        return got;
     }
 };
 
 TEST_F(ReconstructParity, everyStageAtOddSizes) {
-    for (const Rect frame : {Rect{0, 0, 61, 43}, Rect{-7, 3, 30, 36}})
-        for (const int spp : {1, 3, 8}) {
-            LightField field = synthetic::sample(synthetic::discsOverChecks(), frame, 15, spp, 7);
-            EXPECT_EQ(sanitize(field).total(), 0u);
+    for (const Rect frame : {Rect{0, 0, 61, 43}, Rect{-7, 3, 30, 36}, Rect{5, 5, 6, 6}})
+        for (const int spp : {1, 3, 8})
             for (const Method method : {Method::box, Method::full}) {
-                ReconstructOptions options;
-                options.method = method;
-                options.outputsPerPixel = 16;
-                CpuReconstructor cpu;
-                ComputeReconstructor compute(device());
-                const Stages expected = run(cpu, field, options);
-                expectEqual(expected, run(compute, field, options));
-                expectEqual(expected, run(compute, field, options));
+                const LightField field = makeField(frame, spp);
+                const Reconstruction once = runBoth(field, optionsOf(method));
+                EXPECT_EQ(once.report.emptyPixels, 0u);
+                expectEqual(once.stages, compute(field, optionsOf(method)).stages);
             }
+}
+
+TEST_F(ReconstructParity, everyFilter) {
+    const LightField field = makeField({2, 1, 43, 28}, 3);
+    for (const PixelFilter& filter : {PixelFilter{FilterKind::box, {0.5f, 0.5f}},
+                                      {FilterKind::triangle, {2, 1.3f}},
+                                      {FilterKind::gaussian, {1.5f, 1.5f}},
+                                      {FilterKind::mitchell, {2, 2}},
+                                      {FilterKind::sinc, {4, 4}}})
+        for (const Method method : {Method::box, Method::full}) {
+            ReconstructOptions options = optionsOf(method);
+            options.filter = filter;
+            runBoth(field, options);
         }
+}
+
+TEST_F(ReconstructParity, everyNumberOfOutputs) {
+    const LightField field = makeField({0, 0, 21, 13}, 2);
+    for (const int outputs : {1, 2, 4, 256}) {
+        const Reconstruction run = runBoth(field, optionsOf(Method::full, outputs));
+        EXPECT_EQ(run.report.outputs, std::uint64_t(23 * 15 * outputs));
+    }
+}
+
+TEST_F(ReconstructParity, filmDoesNotDependOnMemory) {
+    const LightField field = makeField({0, 0, 61, 43}, 8);
+    for (const Method method : {Method::box, Method::full}) {
+        ReconstructOptions options = optionsOf(method, 64);
+        const Reconstruction plenty = runBoth(field, options);
+        // 6 bands of 8 rows (times 8 chunks each), then 1 or 2 bands (4 chunks).
+        for (const auto& [bytes, denseStages] : {std::pair(200'000u, method == Method::box ? 6 : 48),
+                                                 {1'500'000u, method == Method::box ? 1 : 4}}) {
+            options.memoryBytes = bytes;
+            const Reconstruction tight = runBoth(field, options);
+            EXPECT_EQ(std::count(tight.stages.names.begin(), tight.stages.names.end(), "dense"), denseStages);
+            EXPECT_TRUE(plenty.stages.contents.back() == tight.stages.contents.back()) << bytes;
+        }
+    }
+}
+
+TEST_F(ReconstructParity, outputsWithTooManyCandidatesAreDoneOnTheCpu) {
+    LightField field = makeField({0, 0, 24, 17}, 50);
+    synthetic::Random random(3);
+    for (LightFieldSample& s : field.samples) { // all in one spot, not each in its own pixel
+        s.x = 11.9f + 0.2f * random.uniform();
+        s.y = 7.9f + 0.2f * random.uniform();
+        s.slope = random.uniform();
+    }
+    EXPECT_EQ(sanitize(field).total(), 0u);
+    ASSERT_GT(field.samples.size(), std::size_t(kMaxLoopIterations));
+    const Reconstruction run = runBoth(field, optionsOf(Method::full));
+    EXPECT_GT(run.report.overflowed, 0u);
+    EXPECT_GT(run.report.holes, 0u);
+    EXPECT_GT(run.report.emptyPixels, 0u);
+}
+
+TEST_F(ReconstructParity, sanitizedRubbishIsLeftOut) {
+    LightField field = makeField({0, 0, 31, 23}, 4);
+    int kind = 0;
+    for (std::size_t i = 0; i < field.samples.size(); i += 3) {
+        LightFieldSample& s = field.samples[i];
+        switch (kind++ % 14) {
+        case 0:
+            s.r = kNaN;
+            break;
+        case 1:
+            s.g = kInfinity;
+            break;
+        case 2:
+            s.b = -1;
+            break;
+        case 3:
+            s.w = 0;
+            break;
+        case 4:
+            s.w = -2;
+            break;
+        case 5:
+            s.w = kNaN;
+            break;
+        case 6:
+            s.u = 1.5f;
+            break;
+        case 7:
+            s.v = kNaN;
+            break;
+        case 8:
+            s.slope = kInfinity;
+            break;
+        case 9:
+            s.slope = -kInfinity;
+            break;
+        case 10:
+            s.slope = kNaN;
+            break;
+        case 11:
+            s.x = kNaN;
+            break;
+        case 12:
+            s.y = -kInfinity;
+            break;
+        case 13:
+            s.t = kNaN;
+            break;
+        }
+    }
+    EXPECT_GT(sanitize(field).total(), field.samples.size() / 4);
+    for (const Method method : {Method::box, Method::full}) runBoth(field, optionsOf(method));
+}
+
+TEST_F(ReconstructParity, hugeSlopes) {
+    LightField field = makeField({0, 0, 31, 23}, 4);
+    const std::vector<float> slopes = {300, -300, 1700, -5000, 5000, 1e6f, -1e9f, 1e30f, 3e38f, 1e-30f};
+    for (std::size_t i = 0; i < field.samples.size(); i += 17)
+        field.samples[i].slope = slopes[i / 17 % slopes.size()];
+    EXPECT_EQ(sanitize(field).total(), 0u);
+    for (const Method method : {Method::box, Method::full})
+        EXPECT_EQ(runBoth(field, optionsOf(method)).report.emptyPixels, 0u);
+}
+
+TEST_F(ReconstructParity, fieldsWithoutSamplesAreBlack) {
+    LightField field = makeField({0, 0, 13, 9}, 2);
+    for (LightFieldSample& s : field.samples) s.w = 0;
+    EXPECT_EQ(sanitize(field).badDepth, field.samples.size());
+    for (const Method method : {Method::box, Method::full}) {
+        const Reconstruction run = runBoth(field, optionsOf(method));
+        EXPECT_EQ(run.report.emptyPixels, 13u * 9);
+        EXPECT_EQ(std::count(run.image.pixels.begin(), run.image.pixels.end(), 0.f), 13 * 9 * 3);
+    }
 }
 
 } // namespace
