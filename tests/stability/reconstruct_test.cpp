@@ -1,0 +1,78 @@
+// What must hold of a reconstruction whatever the field: constants stay, order is nothing, brightness stays,
+// and the error falls.
+#include "image/metrics.h"
+#include "reconstruct/cpu_reconstructor.h"
+#include "support/stages.h"
+#include "support/synthetic.h"
+
+#include <numeric>
+
+namespace slant {
+namespace {
+
+const std::vector<Method> kMethods = {Method::box, Method::full};
+
+Image reconstruct(const LightField& field, Method method, int outputs = 32) {
+    ReconstructOptions options;
+    options.method = method;
+    options.outputsPerPixel = outputs;
+    CpuReconstructor cpu;
+    return test::run(cpu, field, options).image;
+}
+
+LightField discs(Rect frame, int spp, std::uint32_t seed) {
+    return synthetic::sample(synthetic::discsOverChecks(), frame, 15, spp, seed);
+}
+
+const Rect kFrame{0, 0, 96, 72};
+
+/// The truth, nearly.
+Image manySamples() {
+    return reconstruct(discs(kFrame, 400, 77), Method::box);
+}
+
+double meanOf(const Image& image) {
+    return std::accumulate(image.pixels.begin(), image.pixels.end(), 0.0) / double(image.pixels.size());
+}
+
+TEST(ReconstructStability, constantRadianceStays) {
+    const vec3 colour(0.7f, 1e-3f, 800);
+    for (const int spp : {1, 4, 9}) {
+        LightField field = discs({0, 0, 40, 31}, spp, 5);
+        synthetic::Random random(9);
+        for (LightFieldSample& s : field.samples) {
+            s.r = colour.r, s.g = colour.g, s.b = colour.b;
+            s.slope = 40 * random.uniform() - 20;
+        }
+        for (const Method method : kMethods) {
+            const Image image = reconstruct(field, method);
+            for (std::size_t i = 0; i < image.pixels.size(); ++i)
+                ASSERT_NEAR(image.pixels[i] / colour[int(i % 3)], 1, 1e-5) << spp << ", value " << i;
+        }
+    }
+}
+
+TEST(ReconstructStability, orderWithinAPixelIsNothing) {
+    LightField field = discs({0, 0, 40, 31}, 8, 5);
+    const Image before[] = {reconstruct(field, Method::box), reconstruct(field, Method::full)};
+    for (std::size_t first = 0; first < field.samples.size(); first += 8)
+        std::reverse(field.samples.begin() + long(first), field.samples.begin() + long(first) + 8);
+    for (const Method method : kMethods)
+        EXPECT_LT(compare(reconstruct(field, method), before[int(method)]).maxAbs, 1e-5);
+}
+
+TEST(ReconstructStability, brightnessStays) {
+    const double exact = meanOf(manySamples());
+    for (const int spp : {1, 4, 16, 64})
+        EXPECT_NEAR(meanOf(reconstruct(discs(kFrame, spp, 21), Method::full, 64)) / exact, 1, 0.005) << spp;
+}
+
+TEST(ReconstructStability, fourSamplesReconstructedBeatSixteenFiltered) {
+    const Image reference = manySamples();
+    const double full = compare(reconstruct(discs(kFrame, 4, 1), Method::full, 64), reference).mse;
+    const double box = compare(reconstruct(discs(kFrame, 16, 2), Method::box), reference).mse;
+    EXPECT_LT(full, 0.5 * box);
+}
+
+} // namespace
+} // namespace slant
