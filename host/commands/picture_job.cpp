@@ -55,6 +55,16 @@ Scene readSceneFor(const PictureOptions& options, Monitor& monitor) {
     return scene;
 }
 
+void warnOf(const FieldDefects& defects, std::uint64_t emptyPixels, Monitor& monitor) {
+    if (defects.total() > 0)
+        monitor.warn(
+            fmt::format("invalid samples: {} of non-finite and {} of negative radiance set to 0; {} of bad "
+                        "depth, {} outside the lens and {} of bad position left out",
+                        defects.nonFiniteRadiance, defects.negativeRadiance, defects.badDepth,
+                        defects.outsideLens, defects.badPosition));
+    if (emptyPixels > 0) monitor.warn(fmt::format("{} pixels without a sample are black", emptyPixels));
+}
+
 void writeOutputs(const PictureOptions& options, const Image& image, const nlohmann::ordered_json& details,
                   const std::vector<StageStats>& stages, double totalSeconds) {
     if (!options.output.empty())

@@ -4,6 +4,7 @@
 #include "commands/options.h"
 #include "commands/terminal_monitor.h"
 #include "image/exr.h"
+#include "lightfield/lightfield.h"
 #include "scene/scene.h"
 
 #include <nlohmann/json.hpp>
@@ -28,6 +29,9 @@ void checkOutputs(const PictureOptions& options);
 
 /// Reads the scene and applies --crop and --spp.
 Scene readSceneFor(const PictureOptions& options, Monitor& monitor);
+
+/// Says which samples were bad and how many pixels are black for want of samples.
+void warnOf(const FieldDefects& defects, std::uint64_t emptyPixels, Monitor& monitor);
 
 /// Writes EXR, PNG and statistics. `details` goes into the metadata of the EXR and into the statistics.
 void writeOutputs(const PictureOptions& options, const Image& image, const nlohmann::ordered_json& details,

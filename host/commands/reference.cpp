@@ -20,17 +20,20 @@ Image bruteForce(const Scene& scene, const Tracer& tracer, std::uint64_t seed, M
     LightField batch;
     batch.frame = scene.film.crop;
     batch.bounds = outputRegion(scene.film.crop, film.filter());
+    FieldDefects defects;
     monitor.beginStage("trace", batch.bounds.area() * std::uint64_t(scene.pixelSamples), "samples");
     for (int first = 0; first < scene.pixelSamples; first += kBatch) {
         batch.samplesPerPixel = std::min(kBatch, scene.pixelSamples - first);
         batch.samples.resize(batch.bounds.area() * std::size_t(batch.samplesPerPixel));
         tracer.trace(batch.bounds, first, batch.samplesPerPixel, scene.pixelSamples, seed, batch.samples, {},
                      monitor);
+        defects.add(sanitize(batch));
         film.accumulate(denseFromInput(batch, batch.bounds), film.frame().y0, film.frame().y1, kFilmBlock);
     }
     monitor.endStage();
     std::uint64_t emptyPixels = 0;
     Image image = film.toImage(emptyPixels);
+    warnOf(defects, emptyPixels, monitor);
     image.displayWindow = {0, 0, scene.film.xResolution, scene.film.yResolution};
     return image;
 }

@@ -91,17 +91,6 @@ Image reconstructAndCompare(Backend& backend, const LightField& field, Reconstru
     return image;
 }
 
-void warnOf(const FieldDefects& defects, const ReconstructReport& report, Monitor& monitor) {
-    if (defects.total() > 0)
-        monitor.warn(
-            fmt::format("invalid samples: {} of non-finite and {} of negative radiance set to 0; {} of bad "
-                        "depth, {} outside the lens and {} of bad position left out",
-                        defects.nonFiniteRadiance, defects.negativeRadiance, defects.badDepth,
-                        defects.outsideLens, defects.badPosition));
-    if (report.emptyPixels > 0)
-        monitor.warn(fmt::format("{} pixels without a sample are black", report.emptyPixels));
-}
-
 nlohmann::ordered_json detailsOf(const RenderOptions& options, const Scene& scene, const LightField& field,
                                  const Backend& backend, const ReconstructReport& report) {
     const CommonOptions& common = options.picture.common;
@@ -151,7 +140,7 @@ void runRender(RenderOptions options) {
                       ? reconstructAndCompare(backend, field, reconstruction, monitor, report)
                       : backend.reconstructor->reconstruct(field, reconstruction, monitor, report, nullptr);
     image.displayWindow = {0, 0, scene.film.xResolution, scene.film.yResolution};
-    warnOf(defects, report, monitor);
+    warnOf(defects, report.emptyPixels, monitor);
 
     std::vector<StageStats> stages = monitor.stages();
     std::erase_if(stages, [](const StageStats& stage) { return stage.name == "reconstruct"; });

@@ -45,6 +45,14 @@ std::uint64_t FieldDefects::total() const {
     return nonFiniteRadiance + negativeRadiance + badDepth + outsideLens + badPosition;
 }
 
+void FieldDefects::add(const FieldDefects& other) {
+    nonFiniteRadiance += other.nonFiniteRadiance;
+    negativeRadiance += other.negativeRadiance;
+    badDepth += other.badDepth;
+    outsideLens += other.outsideLens;
+    badPosition += other.badPosition;
+}
+
 FieldDefects sanitize(LightField& field) {
     FieldDefects sum;
     std::mutex mutex;
@@ -52,11 +60,7 @@ FieldDefects sanitize(LightField& field) {
         FieldDefects local;
         for (std::size_t i = first; i < last; ++i) repair(field.samples[i], local);
         const std::lock_guard lock(mutex);
-        sum.nonFiniteRadiance += local.nonFiniteRadiance;
-        sum.negativeRadiance += local.negativeRadiance;
-        sum.badDepth += local.badDepth;
-        sum.outsideLens += local.outsideLens;
-        sum.badPosition += local.badPosition;
+        sum.add(local);
     });
     return sum;
 }

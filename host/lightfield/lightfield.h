@@ -52,6 +52,7 @@ struct FieldDefects {
     std::uint64_t outsideLens = 0; ///< u, v outside the unit disc or NaN: disabled
     std::uint64_t badPosition = 0; ///< x, y, t or slope not finite: disabled
     std::uint64_t total() const;
+    void add(const FieldDefects& other);
 };
 
 /// Applies the rules of FieldDefects to every sample, in place; reconstruction expects a sanitized field.
