@@ -17,7 +17,6 @@ struct Sweep {
     float invRadius, surfaceGap;
     vec3 sum;
     float weightSum, slopeMax;
-    int count;
     Hull hull;
 };
 
@@ -30,7 +29,6 @@ void visit(Candidate candidate, inout Sweep sweep) {
     sweep.sum += weight * radianceAt(candidate.record);
     sweep.weightSum += weight;
     sweep.slopeMax = max(sweep.slopeMax, candidate.slope);
-    sweep.count += 1;
     addPoint(sweep.hull, candidate.offset);
 }
 #include "lib/search.glsl"
@@ -58,7 +56,7 @@ void main() {
     const int index = push.firstOutput + int(k);
     const Output o = outputAt(outputs.regionOrigin + position, index, texelFetch(pattern, index), push.lensCells,
                               outputs.seed);
-    Sweep sweep = Sweep(true, 1.0 / grid.radiusPx, grid.surfaceGap, vec3(0.0), 0.0, -kInfinity, 0, noHull());
+    Sweep sweep = Sweep(true, 1.0 / grid.radiusPx, grid.surfaceGap, vec3(0.0), 0.0, -kInfinity, noHull());
     const bool complete = forEachCandidate(grid, o, grid.radiusPx, texelFetch(listStart, int(list)).x,
                                            texelFetch(listStart, int(list) + 1).x, sweep);
     const uint slot = (k * uint(outputs.regionSize.y) + uint(position.y)) * uint(outputs.regionSize.x) + uint(position.x);
@@ -67,7 +65,7 @@ void main() {
         return;
     }
     const bool taken =
-        sweep.running ? sweep.weightSum > 0.0 : sweep.count >= kMinSurfaceSamples && surrounds(sweep.hull);
+        sweep.running ? sweep.weightSum > 0.0 : surrounds(sweep.hull) && sweep.weightSum >= kSolidInner * kFullWeight;
     if (taken)
         imageStore(dense, int(slot), vec4(sweep.sum / sweep.weightSum, o.positionCode));
     else

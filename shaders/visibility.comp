@@ -1,6 +1,6 @@
 #version 460
-// Dense samples that reconstruct.comp left: apparent surfaces within twice the base radius, front to back, and the
-// first that covers the output. What finds nothing is appended to a list for the next wider radius.
+// Dense samples that reconstruct.comp left: apparent surfaces within twice the base radius, laid over one another
+// front to back. What finds nothing is appended to a list for the next wider radius.
 #extension GL_GOOGLE_include_directive : require
 #include "lib/bins.glsl"
 #include "lib/grid.glsl"
@@ -16,19 +16,17 @@ layout(set = 0, binding = 11, r32ui) uniform writeonly uimageBuffer overflowList
 
 struct Sweep {
     bool running;
-    float baseRadius, surfaceGap;
+    float baseRadius, surfaceGap, fullWeight;
     Surface surface;
+    Layers layers;
 };
 
 void visit(Candidate candidate, inout Sweep sweep) {
-    const bool another = sweep.surface.count >= kMinSurfaceSamples &&
-                         candidate.slope > sweep.surface.slopeMax + sweep.surfaceGap;
-    if (another) {
-        if (covers(sweep.surface)) {
-            sweep.running = false;
-            return;
-        }
+    if (sweep.surface.count > 0 && candidate.slope > sweep.surface.slopeMax + sweep.surfaceGap) {
+        addSurface(sweep.layers, sweep.surface, sweep.fullWeight);
         sweep.surface = noSurface();
+        sweep.running = sweep.layers.transmittance > 0.0;
+        if (!sweep.running) return;
     }
     addSample(sweep.surface, candidate, radianceAt(candidate.record), sweep.baseRadius);
 }
@@ -49,17 +47,19 @@ void main() {
                               outputs.seed);
     const int list =
         ((int(k) >> push.groupBits) * outputs.tileCount.y + tile.y) * outputs.tileCount.x + tile.x;
-    Sweep sweep = Sweep(true, push.radiusPx, push.grid.surfaceGap, noSurface());
+    const float widening = push.radiusPx / push.grid.radiusPx;
+    Sweep sweep = Sweep(true, push.radiusPx, push.grid.surfaceGap, kFullWeight * widening * widening, noSurface(),
+                        Layers(vec3(0.0), 1.0));
     const bool complete = forEachCandidate(push.grid, o, 2.0 * push.radiusPx, texelFetch(listStart, list).x,
                                            texelFetch(listStart, list + 1).x, sweep);
-    const Surface s = sweep.surface;
     if (!complete) {
         imageStore(overflowList, int(imageAtomicAdd(counters, int(kOverflowCount), 1u)), uvec4(slot));
-    } else if (s.count == 0) {
+    } else if (sweep.surface.count == 0 && sweep.running) {
         imageStore(holeList, int(imageAtomicAdd(counters, int(kHoleCount), 1u)), uvec4(slot));
         imageStore(dense, int(slot), vec4(0.0, 0.0, 0.0, -1.0));
     } else {
-        const vec3 rgb = s.innerWeight > 0.0 ? s.innerSum / s.innerWeight : s.outerSum / s.outerWeight;
-        imageStore(dense, int(slot), vec4(rgb, o.positionCode));
+        Layers layers = sweep.layers;
+        if (sweep.surface.count > 0) layers.rgb += layers.transmittance * meanOf(sweep.surface);
+        imageStore(dense, int(slot), vec4(layers.rgb, o.positionCode));
     }
 }

@@ -15,8 +15,8 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kCellPerRadius = 0.7f;
 constexpr float kBrickPx = 16;
 constexpr int kMaxCellsPerBrick = 64;
-/// Two surfaces this far apart in slope can hide each other (METHODS section 2: 0.1 px over a lens step of
-/// 1/sqrt(128)).
+/// Two surfaces this far apart in slope can hide each other: 0.1 px over a lens step of 1/sqrt(128) (Lehtinen
+/// et al. 2011); or R, lest what is behind shines in through the smaller ones.
 constexpr float kSurfaceSlopeStep = 1.13f;
 
 struct Bounds {
@@ -58,7 +58,7 @@ Bounds boundsOf(const LightField& field, const Rect& region, float marginPx) {
 } // namespace
 
 float emptyCircleRadius(int samplesPerPixel) {
-    return 1.7f / std::sqrt(float(samplesPerPixel));
+    return kSearchRadius / std::sqrt(float(samplesPerPixel));
 }
 
 bool reaches(const LightFieldSample& s, const Rect& region, float marginPx) {
@@ -91,7 +91,7 @@ GridLayout chooseGrid(const LightField& field, const Rect& region, float marginP
     grid.origin = glm::floor(glm::min(low, high));
 
     float cellPx = grid.radiusPx * kCellPerRadius;
-    float bucketWidth = kSurfaceSlopeStep;
+    float bucketWidth = std::min(kSurfaceSlopeStep, grid.radiusPx);
     grid.cellsPerBrick = std::clamp(int(std::lround(kBrickPx / cellPx)), 1, kMaxCellsPerBrick);
     for (;;) {
         grid.invCell = 1 / cellPx;

@@ -85,7 +85,6 @@ Reconstructed reconstructNearest(const SearchContext& context, const Output& out
     const float invRadius = 1 / grid.radiusPx;
     vec3 sum(0);
     float weightSum = 0, slopeMax = -kInfinity;
-    int count = 0;
     Hull hull;
     bool another = false; ///< there is a surface behind
     Reconstructed result;
@@ -96,11 +95,10 @@ Reconstructed reconstructNearest(const SearchContext& context, const Output& out
         sum += weight * radianceOf(context, candidate);
         weightSum += weight;
         slopeMax = glm::max(slopeMax, candidate.slope);
-        count += 1;
         addPoint(hull, candidate.offset);
         return true;
     });
-    const bool taken = another ? count >= kMinSurfaceSamples && surrounds(hull) : weightSum > 0;
+    const bool taken = another ? surrounds(hull) && weightSum >= kSolidInner * kFullWeight : weightSum > 0;
     result.outcome = taken ? Outcome::resolved : Outcome::needsVisibility;
     if (taken) result.rgb = sum / weightSum;
     return result;
@@ -129,31 +127,52 @@ void addSample(Surface& surface, const Candidate& candidate, const vec3& rgb, fl
     addPoint(surface.hull, candidate.offset);
 }
 
-/// The output lies inside the hull of the surface's samples, at least one of them within the base radius.
-bool covers(const Surface& s) {
-    return s.innerWeight > 0 && surrounds(s.hull);
+vec3 meanOf(const Surface& s) {
+    return s.innerWeight > 0 ? s.innerSum / s.innerWeight : s.outerSum / s.outerWeight;
+}
+
+/// Surfaces laid over one another, front to back.
+struct Layers {
+    vec3 rgb{0};
+    float transmittance = 1;
+};
+
+/// A surface whose samples surround the output, and as many as if it lay inside and not at the rim, hides
+/// what is behind.
+bool isSolid(const Surface& s, float fullWeight) {
+    const float fullOuterWeight = 8 * fullWeight; // tent twice as wide, and twice as high
+    return surrounds(s.hull) && s.outerWeight >= kSolidOuter * fullOuterWeight;
+}
+
+/// Adds a surface that has another one behind it. Where it is not solid it covers as much as its samples are
+/// many: a rim, or a thing smaller than R, keeps its area on average and so its brightness.
+void addSurface(Layers& layers, const Surface& s, float fullWeight) {
+    const float opacity = isSolid(s, fullWeight) ? 1.f : glm::min(s.innerWeight / fullWeight, 1.f);
+    if (opacity > 0) layers.rgb += layers.transmittance * opacity * meanOf(s);
+    layers.transmittance *= 1 - opacity;
 }
 
 } // namespace
 
 Reconstructed resolveVisibility(const SearchContext& context, const Output& output, float baseRadius) {
     const GridLayout& grid = context.bins.grid;
+    const float widening = baseRadius / grid.radiusPx;
+    const float fullWeight = kFullWeight * widening * widening;
     Surface surface;
+    Layers layers;
     Reconstructed result;
     result.iterations = forEachCandidate(context, output, 2 * baseRadius, [&](const Candidate& candidate) {
-        const bool another =
-            surface.count >= kMinSurfaceSamples && candidate.slope > surface.slopeMax + grid.surfaceGap;
-        if (another) {
-            if (covers(surface)) return false;
+        if (surface.count > 0 && candidate.slope > surface.slopeMax + grid.surfaceGap) {
+            addSurface(layers, surface, fullWeight);
             surface = Surface{};
+            if (!(layers.transmittance > 0)) return false;
         }
         addSample(surface, candidate, radianceOf(context, candidate), baseRadius);
         return true;
     });
-    if (surface.count == 0) return result;
-    result.outcome = Outcome::resolved;
-    result.rgb = surface.innerWeight > 0 ? surface.innerSum / surface.innerWeight
-                                         : surface.outerSum / surface.outerWeight;
+    if (surface.count > 0) layers.rgb += layers.transmittance * meanOf(surface);
+    if (surface.count > 0 || !(layers.transmittance > 0)) result.outcome = Outcome::resolved;
+    result.rgb = layers.rgb;
     return result;
 }
 

@@ -23,14 +23,16 @@ struct SearchContext {
     std::span<const uint> bricks;
 };
 
-/// The front-most apparent surface within R, tent-filtered, where it is the only one or its samples
-/// surround the output. Anything else needs resolveVisibility.
+/// The front-most apparent surface within R, tent-filtered, where it is the only one or its samples surround
+/// the output. Anything else needs resolveVisibility.
 Reconstructed reconstructNearest(const SearchContext& context, const Output& output);
 
-/// Splits the samples within twice `baseRadius` into apparent surfaces and takes the first, front to back,
-/// that covers the output (its samples surround it); the last is always taken. Lehtinen et al. 2011, section
-/// 4, but that surfaces are split at gaps in slope instead of at pairwise crossings: bricks come front to
-/// back, so one sweep finds them without storing candidates, and there is no limit on their number.
+/// Splits the samples within twice `baseRadius` into apparent surfaces and lays them over one another, front
+/// to back: one that surrounds the output hides the rest, another covers as much as its samples are many, and
+/// the last is taken as it is. After Lehtinen et al. 2011, section 4, but that surfaces are split at gaps in
+/// slope instead of at pairwise crossings (bricks come front to back, so one sweep finds them without storing
+/// candidates, and there is no limit on their number), and that a surface which does not cover the output is
+/// not dropped but weighed by its density, so that small and thin things keep their brightness.
 Reconstructed resolveVisibility(const SearchContext& context, const Output& output, float baseRadius);
 
 } // namespace slant

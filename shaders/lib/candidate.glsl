@@ -2,6 +2,8 @@
 #ifndef SLANT_LIB_CANDIDATE_GLSL
 #define SLANT_LIB_CANDIDATE_GLSL
 
+#include "shared/reconstruct.h"
+
 #define kInfinity uintBitsToFloat(0x7f800000u)
 
 struct Candidate {

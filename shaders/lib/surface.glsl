@@ -27,6 +27,25 @@ void addSample(inout Surface surface, Candidate candidate, vec3 rgb, float baseR
     addPoint(surface.hull, candidate.offset);
 }
 
-/// The output lies inside the hull of the surface's samples, at least one of them within the base radius.
-bool covers(Surface s) { return s.innerWeight > 0.0 && surrounds(s.hull); }
+vec3 meanOf(Surface s) { return s.innerWeight > 0.0 ? s.innerSum / s.innerWeight : s.outerSum / s.outerWeight; }
+
+/// Surfaces laid over one another, front to back.
+struct Layers {
+    vec3 rgb;
+    float transmittance;
+};
+
+/// A surface whose samples surround the output, and as many as if it lay inside and not at the rim, hides what is
+/// behind.
+bool isSolid(Surface s, float fullWeight) {
+    const float fullOuterWeight = 8.0 * fullWeight; // tent twice as wide, and twice as high
+    return surrounds(s.hull) && s.outerWeight >= kSolidOuter * fullOuterWeight;
+}
+
+/// Adds a surface that has another one behind it.
+void addSurface(inout Layers layers, Surface s, float fullWeight) {
+    const float opacity = isSolid(s, fullWeight) ? 1.0 : min(s.innerWeight / fullWeight, 1.0);
+    if (opacity > 0.0) layers.rgb += layers.transmittance * opacity * meanOf(s);
+    layers.transmittance *= 1.0 - opacity;
+}
 #endif

@@ -11,8 +11,17 @@ SLANT_SHARED_CONSTANT int kTileSize = 8;
 /// whole blocks give the same film; and the most outputs of a pixel that share a lens group, and so a list of
 /// bricks.
 SLANT_SHARED_CONSTANT int kFilmBlock = 8;
-/// A surface of fewer samples than this is merged into the next one behind it.
-SLANT_SHARED_CONSTANT int kMinSurfaceSamples = 4;
+/// The search radius R is this over the square root of the samples a pixel.
+SLANT_SHARED_CONSTANT float kSearchRadius = 1.7f;
+/// What the tent weights within R of an output add up to, on average, where a surface is all around: every
+/// plane holds as many samples a square pixel as the pattern does. spp * integral of (1 - d / R) = pi / 3
+/// kSearchRadius^2.
+SLANT_SHARED_CONSTANT float kFullWeight = 3.0264205f;
+/// Shares of that from which a surface that surrounds the output is solid, by its samples within R and within
+/// 2 R: between these values small discs keep their brightness within 3 %, from 0.4 px radius on, blurred or
+/// not.
+SLANT_SHARED_CONSTANT float kSolidInner = 0.75f;
+SLANT_SHARED_CONSTANT float kSolidOuter = 0.55f;
 /// Positions of outputs inside their pixel are multiples of 1 / kSubpixels (plus half a step).
 SLANT_SHARED_CONSTANT int kSubpixels = 4096;
 /// An invocation stops before its loops have taken more steps than this, and the output is counted as
