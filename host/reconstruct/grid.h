@@ -10,7 +10,7 @@
 namespace slant {
 
 /// The radius R of the search, in pixels: a little over that of the largest empty circle of a sheared
-/// pattern. On `spheres` the error is flat from 1.5 to 2 / sqrt(spp).
+/// pattern. On `spheres` 1.5 / sqrt(spp) gives the same error.
 float emptyCircleRadius(int samplesPerPixel);
 
 /// Pinhole position of a sample.

@@ -15,7 +15,7 @@ namespace slant {
 
 enum class Method {
     box,  ///< the pixel filter over the input samples: no reconstruction
-    full, ///< reprojection, apparent surfaces and visibility for every output (METHODS section 2)
+    full, ///< reprojection, apparent surfaces and visibility for every output (Lehtinen et al. 2011)
 };
 
 struct ReconstructOptions {

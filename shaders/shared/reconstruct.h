@@ -18,7 +18,7 @@ SLANT_SHARED_CONSTANT float kSearchRadius = 1.7f;
 /// kSearchRadius^2.
 SLANT_SHARED_CONSTANT float kFullWeight = 3.0264205f;
 /// Shares of that from which a surface that surrounds the output is solid, by its samples within R and within
-/// 2 R: between these values small discs keep their brightness within 3 %, from 0.4 px radius on, blurred or
+/// 2 R: between these values small discs keep their brightness within 5 %, from 0.4 px radius on, blurred or
 /// not.
 SLANT_SHARED_CONSTANT float kSolidInner = 0.75f;
 SLANT_SHARED_CONSTANT float kSolidOuter = 0.55f;

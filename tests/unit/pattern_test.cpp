@@ -90,7 +90,7 @@ TEST(Pattern, NeighbouringPixelsComplementEachOther) {
 }
 
 TEST(Pattern, LeavesNoHoles) {
-    // METHODS, section 2: radii of the largest empty circle, 2 / sqrt(spp) and less.
+    // Radii of the largest empty circle, 2 / sqrt(spp) and less.
     const std::pair<int, double> bars[] = {{1, 2.0}, {2, 1.34}, {3, 1.15}, {4, 1.10}, {5, .89},
                                            {8, .80}, {12, .58}, {16, .50}, {32, .37}, {64, .27}};
     for (auto [spp, bar] : bars) {
