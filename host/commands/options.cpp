@@ -3,15 +3,12 @@
 #include "base/suggest.h"
 #include "reconstruct/output_pattern.h"
 
-#include <algorithm>
 #include <array>
 #include <limits>
-#include <vector>
 
 namespace slant::commands {
 namespace {
 
-const std::vector<std::string> kMethods = {"box", "full"};
 constexpr int kMaxCoordinate = 1 << 20;
 
 } // namespace
@@ -74,15 +71,17 @@ void addReconstructionOptions(CLI::App& command, CommonOptions& options) {
         .add_option_function<std::string>("--out-spp", outSpp, "reconstructed samples a pixel (default 128)")
         ->type_name("N");
     const auto method = [&options](const std::string& text) {
-        if (std::find(kMethods.begin(), kMethods.end(), text) == kMethods.end())
-            throw CLI::ValidationError("--method",
-                                       fmt::format("'{}' is none of {}{}", text, fmt::join(kMethods, ", "),
-                                                   didYouMean(text, kMethods)));
-        options.method = text;
+        const std::optional<Method> parsed = parseMethod(text);
+        if (!parsed)
+            throw CLI::ValidationError("--method", fmt::format("'{}' is none of {}{}", text,
+                                                               fmt::join(methodNames(), ", "),
+                                                               didYouMean(text, methodNames())));
+        options.method = *parsed;
     };
     command
         .add_option_function<std::string>(
-            "--method", method, fmt::format("{} (default {})", fmt::join(kMethods, " or "), options.method))
+            "--method", method,
+            fmt::format("{} (default {})", fmt::join(methodNames(), " or "), nameOf(options.method)))
         ->type_name("NAME");
     command
         .add_option("--device", options.device, "auto, cpu, or part of a Vulkan device's name (default auto)")

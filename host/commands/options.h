@@ -1,6 +1,7 @@
 // Options that several commands share, checked as they are parsed: whatever is out of range is a usage error.
 #pragma once
 #include "base/rect.h"
+#include "reconstruct/method.h"
 
 #include <CLI/CLI.hpp>
 #include <charconv>
@@ -20,7 +21,7 @@ struct CommonOptions {
     std::optional<Rect> crop; ///< pixels; unset: what the scene asks for
     // How to reconstruct.
     int outSpp = 128; ///< output samples a pixel
-    std::string method = "full";
+    Method method = Method::full;
     std::string device = "auto";                        ///< auto, cpu, or part of a device's name
     std::uint64_t memoryBytes = std::uint64_t(1) << 30; ///< for dense samples and intermediate buffers
     // How to run.

@@ -42,7 +42,7 @@ struct Backend {
 
 ReconstructOptions reconstructOptions(const CommonOptions& common, const Scene& scene) {
     ReconstructOptions options;
-    options.method = common.method == "box" ? Method::box : Method::full;
+    options.method = common.method;
     options.outputsPerPixel = common.outSpp;
     options.filter = scene.filter;
     options.seed = common.seed;
@@ -95,7 +95,7 @@ nlohmann::ordered_json detailsOf(const RenderOptions& options, const Scene& scen
                                  const Backend& backend, const ReconstructReport& report) {
     const CommonOptions& common = options.picture.common;
     nlohmann::ordered_json details = {{"scene", options.picture.scene},
-                                      {"method", common.method},
+                                      {"method", nameOf(common.method)},
                                       {"device", backend.name},
                                       {"spp", scene.pixelSamples},
                                       {"seed", common.seed},
@@ -106,7 +106,7 @@ nlohmann::ordered_json detailsOf(const RenderOptions& options, const Scene& scen
                                       {"overscanTop", field.frame.y0 - field.bounds.y0},
                                       {"overscanRight", field.bounds.x1 - field.frame.x1},
                                       {"overscanBottom", field.bounds.y1 - field.frame.y1}};
-    if (common.method != "box") {
+    if (common.method != Method::box) {
         details["outSpp"] = common.outSpp;
         details["outputs"] = report.outputs;
         details["visibility"] = report.visibility;

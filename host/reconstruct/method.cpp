@@ -1,8 +1,28 @@
 #include "reconstruct/method.h"
 
 #include <algorithm>
+#include <array>
 
 namespace slant {
+namespace {
+
+const std::array<std::string, kMethodCount> kMethodNames = {"box", "full"};
+
+} // namespace
+
+std::span<const std::string> methodNames() {
+    return kMethodNames;
+}
+
+const std::string& nameOf(Method method) {
+    return kMethodNames.at(std::size_t(method));
+}
+
+std::optional<Method> parseMethod(std::string_view name) {
+    const auto found = std::find(kMethodNames.begin(), kMethodNames.end(), name);
+    if (found == kMethodNames.end()) return {};
+    return Method(found - kMethodNames.begin());
+}
 
 std::uint64_t maxDenseSamples(const ReconstructOptions& options) {
     return options.memoryBytes / 2 / sizeof(vec4);

@@ -7,8 +7,10 @@
 #include "shared/reconstruct.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace slant {
@@ -17,6 +19,12 @@ enum class Method {
     box,  ///< the pixel filter over the input samples: no reconstruction
     full, ///< reprojection, apparent surfaces and visibility for every output (Lehtinen et al. 2011)
 };
+inline constexpr std::size_t kMethodCount = 2;
+
+/// What users call the methods, in the order of Method.
+std::span<const std::string> methodNames();
+const std::string& nameOf(Method method);
+std::optional<Method> parseMethod(std::string_view name);
 
 struct ReconstructOptions {
     Method method = Method::full;

@@ -136,7 +136,7 @@ TEST(Options, fillOneStruct) {
     EXPECT_EQ(options.seed, 7u);
     EXPECT_EQ(options.crop, (Rect{0, 0, 10, 20}));
     EXPECT_EQ(options.outSpp, 64);
-    EXPECT_EQ(options.method, "box");
+    EXPECT_EQ(options.method, Method::box);
     EXPECT_EQ(options.device, "cpu");
     EXPECT_EQ(options.memoryBytes, 64u << 20);
     EXPECT_EQ(options.threads, 2);

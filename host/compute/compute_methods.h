@@ -1,0 +1,35 @@
+// The methods on the device, a row of peers: each fills the film of a run, stage by stage as its namesake of
+// reconstruct/cpu_methods.h does.
+#pragma once
+#include "compute/bin_passes.h"
+#include "compute/film_pass.h"
+
+#include <algorithm>
+
+namespace slant {
+
+/// One reconstruction on the device: what every method is given.
+struct ComputeRun {
+    Device& device;
+    const LightField& field;
+    const ReconstructOptions& options;
+    Monitor& monitor;
+    ReconstructReport& report;
+    StageObserver* observer; ///< may be null
+    FilmBuffer film{field.frame, makeFilterTable(options.filter)};
+    FilmPass filmPass{device, film};
+    CommandList commands{device}; ///< empty between stages
+    /// Dense samples that may be held at a time.
+    std::uint64_t maxSamples = std::min(maxDenseSamples(options), device.limits().texelBufferElements);
+
+    /// Words of a buffer's first texels for the observer.
+    void observe(const char* name, const Buffer& buffer, std::uint64_t texels) const;
+    void observe(const char* name, const Buffer& buffer) const { observe(name, buffer, buffer.texels()); }
+    /// Stage "bin", timed and observed.
+    DeviceBins bin();
+};
+
+using ComputeMethod = void(ComputeRun& run);
+ComputeMethod boxMethod, fullMethod;
+
+} // namespace slant
