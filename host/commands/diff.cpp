@@ -4,6 +4,7 @@
 #include "commands/commands.h"
 #include "commands/options.h"
 #include "image/exr.h"
+#include "image/flip.h"
 #include "image/heat_map.h"
 #include "image/metrics.h"
 #include "image/png.h"
@@ -19,7 +20,13 @@ namespace {
 struct DiffOptions {
     std::string image, reference, heatMap;
     bool json = false;
-    std::optional<double> maxMse, maxRelMse, minPsnr, maxAbs, maxDrift, maxP99;
+    float exposure = 0; ///< stops, of FLIP
+    std::optional<double> maxMse, maxRelMse, minPsnr, maxAbs, maxDrift, maxP99, maxFlip;
+};
+
+struct Figures {
+    Metrics metrics;
+    double flip; ///< mean
 };
 
 bool isPng(const std::string& path) {
@@ -38,7 +45,8 @@ Image readLinear(const std::string& path) {
 }
 
 /// What is out of bounds and by how much, each bound in its own words; empty if all is well.
-std::vector<std::string> violations(const Metrics& m, const DiffOptions& options) {
+std::vector<std::string> violations(const Figures& figures, const DiffOptions& options) {
+    const Metrics& m = figures.metrics;
     std::vector<std::string> list;
     if (m.nonFinite > 0) list.push_back(fmt::format("{} values are NaN or infinite", m.nonFinite));
     const auto above = [&](const char* name, double value, const std::optional<double>& bound) {
@@ -51,6 +59,7 @@ std::vector<std::string> violations(const Metrics& m, const DiffOptions& options
     above("maximum error", m.maxAbs, options.maxAbs);
     above("mean drift (either way)", std::abs(m.drift), options.maxDrift);
     above("99th percentile", m.p99, options.maxP99);
+    above("FLIP", figures.flip, options.maxFlip);
     if (options.minPsnr && !(m.psnr >= *options.minPsnr))
         list.push_back(fmt::format("PSNR {:.4g} dB falls short of {:.4g} dB by {:.4g} dB", m.psnr,
                                    *options.minPsnr, *options.minPsnr - m.psnr));
@@ -69,7 +78,8 @@ std::string placeText(const ValuePlace& place, const Image& image, float value, 
                        image.channels[std::size_t(place.channel)], value, reference);
 }
 
-void printTable(const Image& image, const Metrics& m, const DiffOptions& options) {
+void printTable(const Image& image, const Figures& figures, const DiffOptions& options) {
+    const Metrics& m = figures.metrics;
     fmt::print("{} against {}: {}x{}, {}\n", options.image, options.reference, image.width(), image.height(),
                fmt::join(image.channels, " "));
     if (m.nonFinite > 0) {
@@ -78,6 +88,7 @@ void printTable(const Image& image, const Metrics& m, const DiffOptions& options
     } else {
         fmt::print("  MSE              {:.6g}\n  relMSE           {:.6g}\n  PSNR             {:.2f} dB\n",
                    m.mse, m.relMse, m.psnr);
+        fmt::print("  FLIP             {:.6g} at {:+g} stops\n", figures.flip, options.exposure);
         fmt::print("  mean error       {:.6g}\n  99th percentile  {:.6g}\n", m.mae, m.p99);
         fmt::print("  maximum error    {:.6g} {}\n", m.maxAbs,
                    placeText(m.maxPlace, image, m.maxValue, m.maxReference));
@@ -99,8 +110,9 @@ nlohmann::ordered_json placeJson(const ValuePlace& place, const Image& image, fl
 }
 
 /// JSON has no NaN and no infinity: these become null.
-void printJson(const Image& image, const Metrics& m, const DiffOptions& options,
+void printJson(const Image& image, const Figures& figures, const DiffOptions& options,
                const std::vector<std::string>& outOfBounds) {
+    const Metrics& m = figures.metrics;
     nlohmann::ordered_json json = {{"image", options.image},
                                    {"reference", options.reference},
                                    {"width", image.width()},
@@ -108,6 +120,8 @@ void printJson(const Image& image, const Metrics& m, const DiffOptions& options,
                                    {"mse", m.mse},
                                    {"relMse", m.relMse},
                                    {"psnr", m.psnr},
+                                   {"flip", figures.flip},
+                                   {"flipExposure", options.exposure},
                                    {"mae", m.mae},
                                    {"p99", m.p99},
                                    {"maxAbs", m.maxAbs},
@@ -128,19 +142,21 @@ void printJson(const Image& image, const Metrics& m, const DiffOptions& options,
 void runDiff(const DiffOptions& options) {
     if (!options.heatMap.empty()) checkWritable(options.heatMap);
     const Image image = readLinear(options.image), reference = readLinear(options.reference);
-    const Metrics metrics = [&] {
+    const Figures figures = [&]() -> Figures {
         try {
-            return compare(image, reference);
+            return {compare(image, reference),
+                    flip(image, reference, {.exposureStops = options.exposure}).mean};
         } catch (const Error& error) {
             throw Error(error.code(), {options.image + " against " + options.reference}, error.what());
         }
     }();
-    if (!options.heatMap.empty()) writePng(options.heatMap, heatMap(image, reference, heatScale(metrics)));
-    const std::vector<std::string> outOfBounds = violations(metrics, options);
+    if (!options.heatMap.empty())
+        writePng(options.heatMap, heatMap(image, reference, heatScale(figures.metrics)));
+    const std::vector<std::string> outOfBounds = violations(figures, options);
     if (options.json)
-        printJson(image, metrics, options, outOfBounds);
+        printJson(image, figures, options, outOfBounds);
     else
-        printTable(image, metrics, options);
+        printTable(image, figures, options);
     if (!outOfBounds.empty())
         throw Error(ErrorCode::outOfBounds, fmt::format("out of bounds: {}", fmt::join(outOfBounds, "; ")));
 }
@@ -155,6 +171,8 @@ void addDiff(CLI::App& program) {
     command->add_flag("--json", options->json, "print JSON instead of a table");
     command->add_option("--heat-map", options->heatMap, "write a picture of the errors")
         ->type_name("FILE.png");
+    addNumber<float>(*command, "--exposure", options->exposure, -30, 30,
+                     "stops, of the pictures that FLIP compares (default 0)");
     constexpr double kHuge = 1e30;
     addNumber<double>(*command, "--max-mse", options->maxMse, 0, kHuge, "mean squared error allowed");
     addNumber<double>(*command, "--max-relmse", options->maxRelMse, 0, kHuge,
@@ -164,6 +182,7 @@ void addDiff(CLI::App& program) {
     addNumber<double>(*command, "--max-drift", options->maxDrift, 0, kHuge,
                       "relative change of mean brightness allowed (0.005 = 0.5 %)");
     addNumber<double>(*command, "--max-p99", options->maxP99, 0, kHuge, "99th percentile of errors allowed");
+    addNumber<double>(*command, "--max-flip", options->maxFlip, 0, 1, "mean FLIP allowed");
     command->callback([options] { runDiff(*options); });
 }
 

@@ -12,20 +12,6 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kRelMseFloor = 0.01;
 
-void checkAlike(const Image& image, const Image& reference) {
-    const Rect &a = image.dataWindow, &b = reference.dataWindow;
-    if (a.width() != b.width() || a.height() != b.height())
-        throw badInput({}, "images of {}x{} and {}x{} pixels cannot be compared", a.width(), a.height(),
-                       b.width(), b.height());
-    if (a != b)
-        throw badInput({}, "data windows at ({}, {}) and ({}, {}) cannot be compared", a.x0, a.y0, b.x0,
-                       b.y0);
-    if (image.channels != reference.channels)
-        throw badInput({}, "images with channels {} and {} cannot be compared",
-                       fmt::join(image.channels, " "), fmt::join(reference.channels, " "));
-    if (image.pixels.empty()) throw badInput({}, "images without pixels cannot be compared");
-}
-
 ValuePlace placeOf(const Image& image, std::size_t index) {
     const std::size_t channels = image.channels.size(), width = std::size_t(image.width());
     const std::size_t pixel = index / channels;
@@ -98,8 +84,22 @@ void addErrors(const Image& image, const Image& reference, Metrics& metrics) {
 
 } // namespace
 
+void checkComparable(const Image& image, const Image& reference) {
+    const Rect &a = image.dataWindow, &b = reference.dataWindow;
+    if (a.width() != b.width() || a.height() != b.height())
+        throw badInput({}, "images of {}x{} and {}x{} pixels cannot be compared", a.width(), a.height(),
+                       b.width(), b.height());
+    if (a != b)
+        throw badInput({}, "data windows at ({}, {}) and ({}, {}) cannot be compared", a.x0, a.y0, b.x0,
+                       b.y0);
+    if (image.channels != reference.channels)
+        throw badInput({}, "images with channels {} and {} cannot be compared",
+                       fmt::join(image.channels, " "), fmt::join(reference.channels, " "));
+    if (image.pixels.empty()) throw badInput({}, "images without pixels cannot be compared");
+}
+
 Metrics compare(const Image& image, const Image& reference) {
-    checkAlike(image, reference);
+    checkComparable(image, reference);
     Metrics metrics;
     if (countNonFinite(image, reference, metrics)) {
         metrics.mse = metrics.relMse = metrics.psnr = metrics.mae = metrics.p99 = metrics.maxAbs =

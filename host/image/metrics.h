@@ -34,6 +34,9 @@ struct Metrics {
 };
 
 /// Throws Error(badInput) if data windows or channels differ, or if there are no pixels.
+void checkComparable(const Image& image, const Image& reference);
+
+/// Throws what checkComparable throws.
 Metrics compare(const Image& image, const Image& reference);
 
 } // namespace slant

@@ -61,14 +61,16 @@ TEST_F(Diff, jsonHoldsEveryFigure) {
     EXPECT_EQ(json["channelDrift"]["R"], 0.0);
     EXPECT_GT(json["drift"].get<double>(), 0);
     EXPECT_EQ(json["nonFinite"], 0);
-    for (const char* key : {"relMse", "mae", "p99", "maxAbs"}) EXPECT_TRUE(json[key].is_number()) << key;
+    for (const char* key : {"relMse", "mae", "p99", "maxAbs", "flip"})
+        EXPECT_TRUE(json[key].is_number()) << key;
 }
 
 TEST_F(Diff, eachBoundCanHoldAndFail) {
     const std::vector<std::array<std::string, 4>> bounds = {
         {"--max-mse", "0.005", "0.004", "MSE"},         {"--max-relmse", "100", "1e-4", "relMSE"},
         {"--min-psnr", "23.8", "23.9", "PSNR"},         {"--max-abs", "0.51", "0.49", "maximum error"},
-        {"--max-drift", "0.5", "0.0001", "mean drift"}, {"--max-p99", "0.51", "0", "99th percentile"}};
+        {"--max-drift", "0.5", "0.0001", "mean drift"}, {"--max-p99", "0.51", "0", "99th percentile"},
+        {"--max-flip", "0.9", "0.001", "FLIP"}};
     for (const auto& [option, loose, tight, name] : bounds) {
         diff({option, loose, other_, reference_}, 0);
         const ProgramResult result = diff({option, tight, other_, reference_}, 1);
@@ -79,7 +81,20 @@ TEST_F(Diff, eachBoundCanHoldAndFail) {
     }
     EXPECT_THAT(diff({"--max-mse", "0", "--max-abs", "0", other_, reference_}, 1).err,
                 HasSubstr("; maximum error"));
-    diff({"--max-mse", "0", "--max-drift", "0", "--max-p99", "0", "--min-psnr", "999", other_, other_}, 0);
+    diff({"--max-mse", "0", "--max-drift", "0", "--max-p99", "0", "--max-flip", "0", "--min-psnr", "999",
+          other_, other_},
+         0);
+}
+
+TEST_F(Diff, exposureIsThatOfTheFlipPictures) {
+    const auto flipAt = [&](const char* stops) {
+        const auto json =
+            nlohmann::json::parse(diff({"--json", "--exposure", stops, other_, reference_}, 0).out);
+        EXPECT_NEAR(json["mse"].get<double>(), 0.25 / 60, 1e-7);
+        return json["flip"].get<double>();
+    };
+    EXPECT_LT(flipAt("-8"), flipAt("0"));
+    EXPECT_THAT(diff({"--exposure", "-1.5", other_, reference_}, 0).out, HasSubstr(" at -1.5 stops"));
 }
 
 TEST_F(Diff, nonFiniteFailsWithoutAnyBound) {
@@ -88,6 +103,7 @@ TEST_F(Diff, nonFiniteFailsWithoutAnyBound) {
     diff({broken_, broken_}, 1);
     const auto json = nlohmann::json::parse(diff({"--json", broken_, reference_}, 1).out);
     EXPECT_TRUE(json["mse"].is_null());
+    EXPECT_TRUE(json["flip"].is_null());
     EXPECT_EQ(json["firstNonFinite"]["x"], 1);
 }
 
@@ -137,6 +153,8 @@ TEST_F(Diff, wrongOptionsGiveStatusTwo) {
         {reference_, other_, "--min-psnr", ""},
         {reference_, other_, "--max-mse", "1", "--max-mse", "2"},
         {reference_, other_, "--json=maybe"},
+        {reference_, other_, "--max-flip", "1.5"},
+        {reference_, other_, "--exposure", "99"},
         {reference_, other_, "--heat-map"},
     };
     for (const auto& words : wrong) EXPECT_EQ(diff(words, 2).out, "");
