@@ -109,6 +109,7 @@ void Interpreter::runFile(Tokenizer& tokens, const Position& where) {
     if (openFiles_.size() > kMaxFileDepth)
         throw badInput(where, "files are included more than {} deep", kMaxFileDepth);
     const std::string text = readBytes(path, filename.position);
+    scene_.files.push_back(path);
     if (++filesRead_ > kMaxFilesRead || textBytes_ + text.size() > kMaxTextBytes)
         throw badInput(where, "more than {} files or {} bytes are included", kMaxFilesRead, kMaxTextBytes);
     run(path, text);

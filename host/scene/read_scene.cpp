@@ -8,7 +8,9 @@
 namespace slant {
 
 Scene readScene(const std::string& path, Monitor& monitor) {
-    return readSceneText(readBytes(path, {}), path, monitor);
+    Scene scene = readSceneText(readBytes(path, {}), path, monitor);
+    scene.files.insert(scene.files.begin(), path);
+    return scene;
 }
 
 Scene readSceneText(const std::string& text, const std::string& name, Monitor& monitor) {

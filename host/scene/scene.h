@@ -169,7 +169,8 @@ struct Light {
 // ---------------------------------------------------------------- the whole
 
 struct Scene {
-    std::string path; ///< the file it was read from
+    std::string path;               ///< the file it was read from
+    std::vector<std::string> files; ///< all that were read for it: that one, includes, meshes, images
     Film film;
     PixelFilter filter;
     PerspectiveCamera camera;

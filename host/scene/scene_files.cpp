@@ -85,6 +85,7 @@ int SceneFiles::image(const std::string& filename, ColourEncoding encoding, bool
     if (isNew) {
         Image image = readImageFile(path, encoding, average, where);
         entry->second = int(scene_.images.size());
+        scene_.files.push_back(path);
         scene_.images.push_back(std::move(image));
     }
     return entry->second;
@@ -94,6 +95,7 @@ std::vector<int> SceneFiles::plyMeshes(const std::string& filename, const Positi
     const std::string path = resolve(filename);
     if (const auto known = meshes_.find(path); known != meshes_.end()) return known->second;
     PlyMeshes ply = parsePly(readBytes(path, where), path);
+    scene_.files.push_back(path);
     if (ply.skippedFaces > 0)
         monitor_.warn(fmt::format("{}: {} faces have neither 3 nor 4 vertices and are left out", path,
                                   ply.skippedFaces));

@@ -206,6 +206,8 @@ TEST(SceneReader, readsOtherFiles) {
     const glm::dvec4 places[] = {{1, 1, 0, 1}, {1, 1, 0, 1}, {1, 1, 0, 1},
                                  {1, 2, 0, 1}, {1, 2, 0, 1}, {1, 1, 0, 1}};
     for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(scene.shapes[i].worldFromObject.at[0][3], places[i]) << i;
+    const std::string inner = dir.file("sub/inner.pbrt"), ply = dir.file("sub/m.ply");
+    EXPECT_THAT(scene.files, testing::ElementsAre(dir.file("main.pbrt"), inner, ply, inner));
     ASSERT_EQ(monitor.warnings.size(), 1u);
     EXPECT_THAT(monitor.warnings[0],
                 testing::EndsWith("m.ply: 1 faces have neither 3 nor 4 vertices and are left out"));
