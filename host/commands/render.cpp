@@ -2,13 +2,12 @@
 #include "base/parallel.h"
 #include "commands/commands.h"
 #include "commands/picture_job.h"
-#include "compute/compute_reconstructor.h"
+#include "compute/backend.h"
 #include "reconstruct/cpu_reconstructor.h"
 #include "reconstruct/stage_compare.h"
 #include "trace/sample_pass.h"
 
 #include <bit>
-#include <cstdlib>
 #include <memory>
 
 namespace slant::commands {
@@ -17,27 +16,6 @@ namespace {
 struct RenderOptions {
     PictureOptions picture;
     bool compareWithCpu = false;
-};
-
-/// What runs the reconstruction: our CPU code or a Vulkan device.
-struct Backend {
-    explicit Backend(const CommonOptions& options) {
-        if (options.device == "cpu") {
-            reconstructor = std::make_unique<CpuReconstructor>();
-            return;
-        }
-        // lavapipe takes its thread count from the environment, when the device is made.
-        if (options.threads > 0) setenv("LP_NUM_THREADS", std::to_string(options.threads).c_str(), 1);
-        DeviceOptions deviceOptions;
-        deviceOptions.name = options.device;
-        device = std::make_unique<Device>(deviceOptions);
-        name = device->info().name;
-        reconstructor = std::make_unique<ComputeReconstructor>(*device);
-    }
-
-    std::string name = "cpu";
-    std::unique_ptr<Device> device;
-    std::unique_ptr<Reconstructor> reconstructor;
 };
 
 ReconstructOptions reconstructOptions(const CommonOptions& common, const Scene& scene) {
@@ -122,7 +100,7 @@ void runRender(RenderOptions options) {
     const CommonOptions& common = options.picture.common;
     const ThreadLimit threads(common.threads);
     TerminalMonitor monitor(TerminalMonitor::styleOfStderr(common.quiet));
-    Backend backend(common);
+    Backend backend(common.device, common.threads);
     const Scene scene = readSceneFor(options.picture, monitor);
     if (options.picture.output.empty()) options.picture.output = scene.film.filename;
     checkOutputs(options.picture);

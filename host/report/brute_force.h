@@ -1,0 +1,23 @@
+// The reference: every pixel from many samples of its own, without reconstruction.
+#pragma once
+#include "base/monitor.h"
+#include "image/image.h"
+#include "lightfield/lightfield.h"
+#include "scene/scene.h"
+#include "trace/tracer.h"
+
+#include <cstdint>
+
+namespace slant {
+
+struct BruteForce {
+    Image image;                   ///< of scene.film.crop, channels R, G, B
+    FieldDefects defects;          ///< bad samples, treated as everywhere
+    std::uint64_t emptyPixels = 0; ///< black for want of samples
+};
+
+/// The same pattern and pixel filter as method `box` of scene.pixelSamples samples, at any number of them in
+/// bounded memory. One stage "trace" of the monitor.
+BruteForce bruteForce(const Scene& scene, const Tracer& tracer, std::uint64_t seed, Monitor& monitor);
+
+} // namespace slant
