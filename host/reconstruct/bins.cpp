@@ -1,8 +1,7 @@
 #include "reconstruct/bins.h"
 
 #include "base/parallel.h"
-
-#include <tbb/parallel_sort.h>
+#include "base/sort.h"
 
 #include <algorithm>
 
@@ -23,20 +22,24 @@ uint sortKey(const GridLayout& grid, vec2 p, float slope) {
            uint(inside.x);
 }
 
-/// (key, sample index) of every binned sample, ascending.
-std::vector<std::uint64_t> sortedSamples(const LightField& field, const Rect& region, float marginPx,
-                                         const GridLayout& grid) {
-    std::vector<std::uint64_t> order(field.samples.size());
-    parallelFor(0, order.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
+/// Binned samples by key, and those of one key by index.
+struct Order {
+    std::vector<uint> keys, samples;
+};
+
+Order sortedSamples(const LightField& field, const Rect& region, float marginPx, const GridLayout& grid) {
+    Order order{std::vector<uint>(field.samples.size()), std::vector<uint>(field.samples.size())};
+    parallelFor(0, field.samples.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             const LightFieldSample& s = field.samples[i];
-            const uint key =
+            order.keys[i] =
                 reaches(s, region, marginPx) ? sortKey(grid, pinholePosition(s), s.slope) : kNotBinned;
-            order[i] = std::uint64_t(key) << 32 | i;
+            order.samples[i] = uint(i);
         }
     });
-    tbb::parallel_sort(order);
-    order.resize(grid.sampleCount);
+    radixSort(order.keys, order.samples, 32);
+    order.keys.resize(grid.sampleCount);
+    order.samples.resize(grid.sampleCount);
     return order;
 }
 
@@ -68,14 +71,15 @@ Bins binSamples(const LightField& field, const Rect& region, float marginPx) {
     Bins bins;
     bins.grid = chooseGrid(field, region, marginPx);
     const uint cellsPerBrick = uint(bins.grid.cellsPerBrick) * uint(bins.grid.cellsPerBrick);
-    const std::vector<std::uint64_t> order = sortedSamples(field, region, marginPx, bins.grid);
+    const Order order = sortedSamples(field, region, marginPx, bins.grid);
+    const std::size_t count = order.keys.size();
 
-    bins.positions.reserve(order.size());
-    bins.radiances.reserve(order.size());
+    bins.positions.reserve(count);
+    bins.radiances.reserve(count);
     std::vector<BrickBounds> bricks;
-    for (std::size_t record = 0; record < order.size(); ++record) {
-        const uint key = uint(order[record] >> 32), cell = key % cellsPerBrick;
-        const LightFieldSample& s = field.samples[uint(order[record])];
+    for (std::size_t record = 0; record < count; ++record) {
+        const uint key = order.keys[record], cell = key % cellsPerBrick;
+        const LightFieldSample& s = field.samples[order.samples[record]];
         if (bricks.empty() || key / cellsPerBrick != bricks.back().key)
             bricks.emplace_back(key / cellsPerBrick, s.slope);
         bricks.back().add(ivec2(int(cell) % bins.grid.cellsPerBrick, int(cell) / bins.grid.cellsPerBrick),
@@ -86,7 +90,7 @@ Bins binSamples(const LightField& field, const Rect& region, float marginPx) {
         bins.radiances.emplace_back(s.r, s.g, s.b, s.alpha);
     }
     for (const BrickBounds& bounds : bricks) bins.bricks.push_back(bounds.brick(bins.grid));
-    bins.cellStart.resize(bins.bricks.size() * cellsPerBrick + 1, uint(order.size()));
+    bins.cellStart.resize(bins.bricks.size() * cellsPerBrick + 1, uint(count));
     return bins;
 }
 
