@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fmt/format.h>
 #include <vector>
 
 namespace slant {
@@ -33,13 +32,13 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
 
 } // namespace
 
-std::string closestName(std::string_view word, std::span<const std::string> candidates) {
+std::string closestName(std::string_view word, std::span<const std::string_view> candidates) {
     // No name of ours is near this length, and the distance takes quadratic time.
     if (word.size() > 100) return {};
     const std::string wanted = lowerCase(word);
     std::size_t best = std::max<std::size_t>(1, word.size() / 3) + 1;
     std::string name;
-    for (const std::string& candidate : candidates) {
+    for (const std::string_view candidate : candidates) {
         const std::size_t distance = editDistance(wanted, lowerCase(candidate));
         if (distance < best) {
             best = distance;
@@ -47,11 +46,6 @@ std::string closestName(std::string_view word, std::span<const std::string> cand
         }
     }
     return name;
-}
-
-std::string didYouMean(std::string_view word, std::span<const std::string> candidates) {
-    const std::string name = closestName(word, candidates);
-    return name.empty() ? "" : fmt::format(", did you mean '{}'?", name);
 }
 
 } // namespace slant

@@ -1,6 +1,7 @@
 #include "scene/interpreter.h"
 
 #include "base/monitor.h"
+#include "base/suggest.h"
 #include "scene/spelling.h"
 
 #include <algorithm>

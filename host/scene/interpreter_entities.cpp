@@ -1,5 +1,6 @@
 // The directives that make film, camera, materials, lights and shapes.
 #include "base/monitor.h"
+#include "base/suggest.h"
 #include "scene/interpreter.h"
 #include "scene/light_reader.h"
 #include "scene/shape_reader.h"

@@ -1,6 +1,6 @@
 // The transform directives.
+#include "base/suggest.h"
 #include "scene/interpreter.h"
-#include "scene/spelling.h"
 
 #include <array>
 #include <glm/gtc/matrix_transform.hpp>

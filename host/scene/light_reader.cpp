@@ -1,5 +1,6 @@
 #include "scene/light_reader.h"
 
+#include "base/suggest.h"
 #include "scene/scene_files.h"
 #include "scene/spectra.h"
 #include "scene/spelling.h"

@@ -1,5 +1,6 @@
 #include "scene/material_table.h"
 
+#include "base/suggest.h"
 #include "scene/spelling.h"
 #include "scene/texture_table.h"
 

@@ -1,6 +1,7 @@
 #include "scene/option_block.h"
 
 #include "base/monitor.h"
+#include "base/suggest.h"
 #include "scene/spelling.h"
 
 #include <algorithm>

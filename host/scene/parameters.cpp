@@ -1,5 +1,6 @@
 #include "scene/parameters.h"
 
+#include "base/suggest.h"
 #include "scene/spelling.h"
 
 #include <algorithm>
@@ -203,7 +204,7 @@ std::string ParameterList::choice(std::string_view name, std::string_view fallba
     const std::string& chosen = parameter->strings[0];
     if (std::find(options.begin(), options.end(), chosen) != options.end()) return chosen;
     throw badInput(parameter->position, "'{}' is \"{}\", but must be one of: {}{}", name, printable(chosen),
-                   joined(options), didYouMean(chosen, {options.begin(), options.size()}));
+                   joined(options), didYouMean(chosen, options));
 }
 
 glm::vec3 ParameterList::triple(std::string_view name, std::string_view type, glm::vec3 fallback) {

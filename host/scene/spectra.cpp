@@ -1,5 +1,6 @@
 #include "scene/spectra.h"
 
+#include "base/suggest.h"
 #include "scene/spelling.h"
 
 #include <algorithm>

@@ -1,9 +1,6 @@
 #include "scene/spelling.h"
 
-#include "base/suggest.h"
-
 #include <fmt/format.h>
-#include <vector>
 
 namespace slant {
 
@@ -17,10 +14,6 @@ std::string printable(std::string_view text) {
             shown += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
     }
     return text.size() > kMaxShown ? shown + "..." : shown;
-}
-
-std::string didYouMean(std::string_view word, std::span<const std::string_view> candidates) {
-    return didYouMean(word, std::vector<std::string>(candidates.begin(), candidates.end()));
 }
 
 } // namespace slant

@@ -1,6 +1,5 @@
 // Words of a file in messages about it.
 #pragma once
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -8,8 +7,5 @@ namespace slant {
 
 /// `text` fit for one line of a message: control and non-ASCII bytes as \xNN, cut after 40 characters.
 std::string printable(std::string_view text);
-
-/// As in base/suggest.h, for constant lists of names.
-std::string didYouMean(std::string_view word, std::span<const std::string_view> candidates);
 
 } // namespace slant

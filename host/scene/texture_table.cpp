@@ -1,5 +1,6 @@
 #include "scene/texture_table.h"
 
+#include "base/suggest.h"
 #include "scene/scene_files.h"
 #include "scene/spelling.h"
 #include "scene/tokenizer.h"

@@ -158,7 +158,7 @@ TEST(Options, refuseWhatIsOutOfRange) {
 }
 
 TEST(Suggest, nearestNameOrNone) {
-    const std::vector<std::string> names = {"render", "reference", "diff", "devices"};
+    const std::vector<std::string_view> names = {"render", "reference", "diff", "devices"};
     EXPECT_EQ(closestName("rendr", names), "render");
     EXPECT_EQ(closestName("REFERENCE", names), "reference");
     EXPECT_EQ(closestName("idff", names), "diff");
