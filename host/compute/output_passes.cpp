@@ -40,16 +40,18 @@ OutputPasses::Result OutputPasses::run(CommandList& commands, ListPasses& listPa
     commands.run();
 
     Result result;
-    result.visibility = push.count = counters()[kVisibilityCount];
+    const Counters first = counters();
+    result.visibility = push.count = first[kVisibilityCount];
     const auto look = [&](const DeviceLists& in) {
         commands.dispatch(visibility_,
                           {bins.positions, bins.radiances, bins.cellStart, in.start, in.cellBases, in.bricks,
                            pattern_, visibilityList_, dense, counters_, holeList_, overflowList_},
                           push, visibility_.gridFor(push.count));
         commands.run();
-        return counters()[kHoleCount];
+        return counters();
     };
-    result.widened = result.holes = look(lists);
+    const Counters second = look(lists);
+    result.widened = result.holes = second[kHoleCount];
     for (int step = 0; step < kWidenings && result.holes > 0; ++step) {
         push.radiusPx *= 2;
         push.count = uint(result.holes);
@@ -57,9 +59,12 @@ OutputPasses::Result OutputPasses::run(CommandList& commands, ListPasses& listPa
         const DeviceLists wide = listPasses.run(commands, bins, push, 2 * push.radiusPx);
         const uint none = 0;
         counters_.upload(std::span(&none, 1), kHoleCount);
-        result.holes = look(wide);
+        result.holes = look(wide)[kHoleCount];
     }
-    result.overflowed.resize(counters()[kOverflowCount]);
+    const uint overflowed = counters()[kOverflowCount];
+    result.visibility -= overflowed - first[kOverflowCount];
+    result.widened -= overflowed - second[kOverflowCount];
+    result.overflowed.resize(overflowed);
     overflowList_.download(std::span(result.overflowed));
     std::sort(result.overflowed.begin(), result.overflowed.end());
     return result;

@@ -10,7 +10,7 @@ class OutputPasses {
 public:
     OutputPasses(Device& device, const OutputPattern& pattern);
 
-    /// What one chunk met.
+    /// What one chunk met; what overflowed is in no other count.
     struct Result {
         std::uint64_t visibility = 0, widened = 0, holes = 0;
         std::vector<uint> overflowed; ///< indices into dense that are still to be done, ascending

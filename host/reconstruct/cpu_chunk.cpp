@@ -85,6 +85,8 @@ void CpuChunk::redo(std::span<const uint> indices, ReconstructReport& report) {
         const int plane = int(index / dense.region.area()), pixel = int(index % dense.region.area());
         runSlot(slotAt(ivec2(pixel % width, pixel / width), plane), counts_);
     }
+    report.visibility += counts_.visibility;
+    report.widened += counts_.holes.size();
     widen(report);
 }
 

@@ -19,7 +19,8 @@ public:
     /// Lists, then every output; progress in outputs. Adds to the counts of `report`.
     void run(Monitor& monitor, ReconstructReport& report);
 
-    /// Only these samples of `dense`, by index: those that the compute path leaves to the CPU.
+    /// Only these samples of `dense`, by index: those that the compute path leaves to the CPU. Adds to the
+    /// counts of `report` but for the outputs.
     void redo(std::span<const uint> indices, ReconstructReport& report);
 
     DenseSamples dense;
