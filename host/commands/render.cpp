@@ -4,6 +4,7 @@
 #include "commands/picture_job.h"
 #include "compute/backend.h"
 #include "reconstruct/cpu_reconstructor.h"
+#include "reconstruct/plan.h"
 #include "reconstruct/stage_compare.h"
 #include "trace/sample_pass.h"
 
@@ -18,13 +19,18 @@ struct RenderOptions {
     bool compareWithCpu = false;
 };
 
-ReconstructOptions reconstructOptions(const CommonOptions& common, const Scene& scene) {
+ReconstructOptions reconstructOptions(const CommonOptions& common, const Scene& scene,
+                                      const Backend& backend) {
     ReconstructOptions options;
     options.method = common.method;
     options.outputsPerPixel = common.outSpp;
     options.filter = scene.filter;
     options.seed = common.seed;
     options.memoryBytes = common.memoryBytes;
+    // So that the CPU cuts a picture into the chunks that the device can hold.
+    if (backend.device)
+        options.memoryBytes =
+            std::min(options.memoryBytes, 2 * sizeof(vec4) * backend.device->limits().texelBufferElements);
     return options;
 }
 
@@ -41,12 +47,8 @@ std::string describe(const StageDifference& d, const std::vector<uint>& expected
 }
 
 /// Runs the CPU beside the backend; Error(outOfBounds) at the first stage that differs.
-Image reconstructAndCompare(Backend& backend, const LightField& field, ReconstructOptions options,
+Image reconstructAndCompare(Backend& backend, const LightField& field, const ReconstructOptions& options,
                             Monitor& monitor, ReconstructReport& report) {
-    // Both must cut the picture into the same chunks.
-    if (backend.device)
-        options.memoryBytes =
-            std::min(options.memoryBytes, 2 * sizeof(vec4) * backend.device->limits().texelBufferElements);
     CpuReconstructor cpu;
     ReconstructReport cpuReport;
     StageRecorder expected;
@@ -104,6 +106,8 @@ void runRender(RenderOptions options) {
     const Scene scene = readSceneFor(options.picture, monitor);
     if (options.picture.output.empty()) options.picture.output = scene.film.filename;
     checkOutputs(options.picture);
+    const ReconstructOptions reconstruction = reconstructOptions(common, scene, backend);
+    checkBudget(scene.film.crop, scene.pixelSamples, reconstruction);
 
     const Tracer tracer(scene, monitor);
     SampleOptions sampling;
@@ -113,7 +117,6 @@ void runRender(RenderOptions options) {
     const FieldDefects defects = sanitize(field);
 
     ReconstructReport report;
-    const ReconstructOptions reconstruction = reconstructOptions(common, scene);
     Image image = options.compareWithCpu
                       ? reconstructAndCompare(backend, field, reconstruction, monitor, report)
                       : backend.reconstructor->reconstruct(field, reconstruction, monitor, report, nullptr);

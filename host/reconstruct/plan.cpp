@@ -34,6 +34,12 @@ Rect outputRegion(const Rect& frame, const FilterTable& filter) {
             frame.y1 + filter.reach.y};
 }
 
+void checkBudget(const Rect& frame, int samplesPerPixel, const ReconstructOptions& options) {
+    const int planes =
+        options.method == Method::box ? samplesPerPixel : std::min(kFilmBlock, options.outputsPerPixel);
+    planBands(frame, makeFilterTable(options.filter), planes, maxDenseSamples(options));
+}
+
 OutputLayout layoutOf(const Band& band, const OutputPattern& pattern, std::uint64_t seed) {
     OutputLayout layout;
     layout.regionOrigin = ivec2(band.region.x0, band.region.y0);

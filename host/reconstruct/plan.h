@@ -27,6 +27,10 @@ std::vector<Band> planBands(const Rect& frame, const FilterTable& filter, int pl
 /// The whole picture and the filter's reach.
 Rect outputRegion(const Rect& frame, const FilterTable& filter);
 
+/// Throws Error(resources), as the reconstruction of such a field would, when the memory budget is too small
+/// for a row of tiles; it needs no samples to know.
+void checkBudget(const Rect& frame, int samplesPerPixel, const ReconstructOptions& options);
+
 OutputLayout layoutOf(const Band& band, const OutputPattern& pattern, std::uint64_t seed);
 
 struct Plan {
