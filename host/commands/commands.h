@@ -13,9 +13,11 @@ using AddCommand = void (*)(CLI::App& program);
 void addRender(CLI::App& program);
 void addReference(CLI::App& program);
 void addDiff(CLI::App& program);
+void addChart(CLI::App& program);
 void addDevices(CLI::App& program);
 
 /// In the order in which `slant --help` lists them.
-inline constexpr std::initializer_list<AddCommand> kCommands = {addRender, addReference, addDiff, addDevices};
+inline constexpr std::initializer_list<AddCommand> kCommands = {addRender, addReference, addDiff, addChart,
+                                                                addDevices};
 
 } // namespace slant::commands

@@ -43,11 +43,15 @@ std::optional<Rect> parseCrop(std::string_view text) {
     return crop;
 }
 
+void addSeedOption(CLI::App& command, CommonOptions& options) {
+    addNumber<std::uint64_t>(command, "--seed", options.seed, 0, std::numeric_limits<std::uint64_t>::max(),
+                             "of the sampling pattern (default 0)");
+}
+
 void addSamplingOptions(CLI::App& command, CommonOptions& options) {
     addNumber<int>(command, "--spp", options.spp, 1, kMaxSamplesPerPixel,
                    "samples a pixel (default: the scene's pixelsamples)");
-    addNumber<std::uint64_t>(command, "--seed", options.seed, 0, std::numeric_limits<std::uint64_t>::max(),
-                             "of the sampling pattern (default 0)");
+    addSeedOption(command, options);
     const auto crop = [&options](const std::string& text) {
         options.crop = parseCrop(text);
         if (!options.crop)

@@ -30,6 +30,8 @@ struct CommonOptions {
     std::string statsPath; ///< empty: none
 };
 
+/// --seed
+void addSeedOption(CLI::App& command, CommonOptions& options);
 /// --spp, --seed, --crop
 void addSamplingOptions(CLI::App& command, CommonOptions& options);
 /// --out-spp, --method, --device, --memory

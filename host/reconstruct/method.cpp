@@ -24,6 +24,10 @@ std::optional<Method> parseMethod(std::string_view name) {
     return Method(found - kMethodNames.begin());
 }
 
+bool usesOutputs(Method method) {
+    return method != Method::box;
+}
+
 std::uint64_t maxDenseSamples(const ReconstructOptions& options) {
     return options.memoryBytes / 2 / sizeof(vec4);
 }

@@ -25,6 +25,8 @@ inline constexpr std::size_t kMethodCount = 2;
 std::span<const std::string> methodNames();
 const std::string& nameOf(Method method);
 std::optional<Method> parseMethod(std::string_view name);
+/// Whether it makes outputs, so that their number matters.
+bool usesOutputs(Method method);
 
 struct ReconstructOptions {
     Method method = Method::full;
