@@ -13,7 +13,7 @@ enum class ErrorCode {
     usage = 2,       ///< wrong options or arguments
     badInput = 3,    ///< a file that is missing, malformed or outside the supported subset
     device = 4,      ///< no such Vulkan device, or the device was lost
-    resources = 5,   ///< out of memory or disk, or an output that cannot be written
+    resources = 5,   ///< out of memory or disk, an output that cannot be written, or no gnuplot
     interrupted = 130,
 };
 

@@ -37,6 +37,8 @@ TEST(Readme, everyCommandWorksAsWritten) {
         ASSERT_TRUE(command.starts_with("slant ")) << command;
         if (renders(command) && command.find("--crop") == std::string::npos)
             command += " --crop 250,266,150,159"; // only to be quick
+        if (command.starts_with("slant chart"))
+            command += " --spp 1 --outputs 1 --truth-spp 64 --repeat 1 --cache cache"; // as well
         const auto run = test::runWords(
             {"sh", "-c", "cd " + test::shellQuote(dir.path().string()) + " && PATH=.:$PATH && " + command});
         EXPECT_EQ(run.status, 0) << command << "\n" << run.err;
