@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
-#include <set>
 
 namespace slant {
 namespace {
@@ -13,6 +12,7 @@ namespace {
 constexpr std::array kColors{"#d9541a", "#2385c8", "#1d9b74", "#b0569c", "#b58a00"};
 constexpr const char* kReferenceColor = "#808080";
 constexpr int kWidth = 560, kPlotHeight = 400, kLineHeight = 22; ///< pixels
+constexpr std::size_t kTitleOfHalfWidth = 22;                    ///< characters of a title in the key
 
 struct Curve {
     const Point* first;
@@ -49,15 +49,6 @@ std::vector<Curve> curvesOf(std::span<const Point> points, Figure figure) {
     return curves;
 }
 
-/// What tells the curve from the others.
-std::string titleOf(const Curve& curve, bool manyDevices) {
-    const Point& p = *curve.first;
-    std::string title = p.method;
-    if (p.outputs > 0) title += fmt::format(", {} outputs", p.outputs);
-    if (manyDevices && !p.isReference()) title += ", " + shortDevice(p.device);
-    return title;
-}
-
 struct Range {
     double low = HUGE_VAL, high = 0;
     void add(double value) {
@@ -79,35 +70,143 @@ struct Range {
     std::string text() const { return high > 0 ? fmt::format("[{:g}:{:g}]", low, high) : "[0.1:1]"; }
 };
 
-std::string dataBlock(const std::string& name, std::span<const Cost> costs, std::span<const int> labels) {
-    std::string text = fmt::format("${} << END\n", name);
-    for (std::size_t i = 0; i < costs.size(); ++i)
-        text +=
-            fmt::format("{:g} {:g} {}\n", costs[i].seconds, costs[i].error, labels.empty() ? 0 : labels[i]);
-    return text + "END\n";
+/// Index of `value` in `list`, at whose end it is added if it is new.
+template <typename Value>
+std::size_t indexIn(std::vector<Value>& list, const Value& value) {
+    const auto found = std::ranges::find(list, value);
+    if (found != list.end()) return std::size_t(found - list.begin());
+    list.push_back(value);
+    return list.size() - 1;
 }
 
-/// What each method gains, a line for each error that it or the reference reaches.
-std::vector<std::string> gainLines(std::span<const Point> points, bool manyDevices) {
-    std::vector<std::string> lines;
-    for (const MethodGain& g : gainsOf(points))
-        if (g.gain.equalError)
-            lines.push_back(
-                fmt::format("{}{}: {} faster than the reference to relMSE {:g}; in that time {} less error",
-                            g.method, manyDevices ? " on " + shortDevice(g.device) : "",
-                            factorText(g.gain.equalError), g.error, factorText(g.gain.equalTime)));
-    return lines;
-}
+/// Puts one chart into gnuplot's words.
+class Script {
+public:
+    Script(const SceneSummary& scene, std::span<const Point> points, Figure figure)
+        : scene_(scene), points_(points), figure_(figure), curves_(curvesOf(points, figure)) {
+        for (const Curve& curve : curves_)
+            for (const Point* p : curve.points) {
+                const double error = errorOf(*p, figure);
+                if (!p->isReference()) indexIn(devices_, p->device);
+                all_.push_back({p->seconds(), error});
+                for (const double factor : {0.7, 1.5}) seconds_.add(factor * p->seconds());
+                for (const double factor : {0.6, 1.8}) errors_.add(factor * error);
+            }
+    }
 
-/// A horizontal line with a note, if it is within the chart.
-std::string level(double error, const Range& range, const std::string& note) {
-    if (!range.contains(error)) return "";
-    return fmt::format(
-        "set arrow from graph 0, first {0:g} to graph 1, first {0:g} nohead back dt 3 lc rgb "
-        "'#808080'\nset label {1} noenhanced at graph 0.01, first {0:g} left offset 0,0.4 font "
-        "',12' tc rgb '#808080'\n",
-        error, quoted(note));
-}
+    std::string text() {
+        const std::vector<std::string> notes = gainLines();
+        frame(int(notes.size()));
+        for (std::size_t i = 0; i < notes.size(); ++i)
+            text_ += fmt::format("set label {} noenhanced at screen 0.03, screen {:.4f} font ',13'\n",
+                                 quoted(notes[i]),
+                                 kLineHeight * (double(notes.size() - i) - 0.4) / double(heightPx_));
+        if (figure_ == Figure::relMse) {
+            for (const double error : kGainErrors) level(error, fmt::format("{:g}", error));
+            level(truthNoise(points_, scene_.truthSpp), "noise of the ground truth at most");
+        }
+        if (curves_.empty()) return text_ + "plot 1/0 notitle\n";
+        dataBlock("front", paretoFront(all_));
+        plots_ = "plot $front using 1:2 with linespoints lw 9 pt 7 ps 1.6 lc rgb '#90f0c000' "
+                 "title 'Pareto front'";
+        for (std::size_t i = 0; i < curves_.size(); ++i) plot(curves_[i], i);
+        return text_ + plots_ + "\n";
+    }
+
+private:
+    /// What each method gains, a line for each error that it or the reference reaches.
+    std::vector<std::string> gainLines() const {
+        std::vector<std::string> lines;
+        if (figure_ != Figure::relMse) return lines;
+        for (const MethodGain& g : gainsOf(points_)) {
+            if (!g.gain.equalError) continue;
+            if (lines.empty()) lines.push_back("Over the reference, at equal error and at equal time:");
+            lines.push_back(fmt::format("{}{}, relMSE {:g}: {} faster, {} less error", g.method,
+                                        devices_.size() > 1 ? " on " + shortDevice(g.device) : "", g.error,
+                                        factorText(g.gain.equalError), factorText(g.gain.equalTime)));
+        }
+        return lines;
+    }
+
+    /// What tells the curve from the others.
+    std::string titleOf(const Curve& curve) const {
+        const Point& p = *curve.first;
+        std::string title = p.method;
+        if (p.outputs > 0) title += fmt::format(", {} outputs", p.outputs);
+        if (devices_.size() > 1 && !p.isReference()) title += ", " + shortDevice(p.device);
+        return title;
+    }
+
+    /// Size, axes and key; from the bottom: notes, key, label and tics of the x axis, plot.
+    void frame(int noteLines) {
+        std::size_t longest = 0;
+        for (const Curve& curve : curves_) longest = std::max(longest, titleOf(curve).size());
+        const int columns = longest <= kTitleOfHalfWidth ? 2 : 1;
+        const int keyLines = (int(curves_.size()) + columns) / columns; // one more for the front
+        const int keyPx = kLineHeight * noteLines + 8, plotPx = keyPx + kLineHeight * keyLines + 75;
+        heightPx_ = plotPx + kPlotHeight;
+        text_ = fmt::format(
+            "set terminal svg size {},{} font 'sans-serif,14' background '#ffffff'\n"
+            "set logscale xy\nset grid lc rgb '#d0d0d0'\nset border lc rgb '#404040'\n"
+            "set title {} noenhanced\nset xlabel 'seconds, tracing included'\nset ylabel {}\n"
+            "set xtics ({})\nset ytics ({})\nset xrange {}\nset yrange {}\nset bmargin screen {:.4f}\n"
+            "set key at screen 0.5, screen {:.4f} center bottom horizontal maxcols {} Left reverse "
+            "noenhanced\n",
+            kWidth, heightPx_,
+            quoted(fmt::format("{}, {}x{}, against {} samples a pixel", scene_.name, scene_.width,
+                               scene_.height, scene_.truthSpp)),
+            figure_ == Figure::relMse ? "'relMSE'" : "'FLIP'", seconds_.tics(), errors_.tics(),
+            seconds_.text(), errors_.text(), double(plotPx) / heightPx_, double(keyPx) / heightPx_, columns);
+    }
+
+    /// A horizontal line with a note, if it is within the chart.
+    void level(double error, const std::string& note) {
+        if (!errors_.contains(error)) return;
+        text_ += fmt::format(
+            "set arrow from graph 0, first {0:g} to graph 1, first {0:g} nohead back dt 3 lc rgb '#808080'\n"
+            "set label {1} noenhanced at graph 0.01, first {0:g} left offset 0,0.4 font ',12' tc rgb "
+            "'#808080'\n",
+            error, quoted(note));
+    }
+
+    void dataBlock(const std::string& name, std::span<const Cost> costs) {
+        text_ += fmt::format("${} << END\n", name);
+        for (const Cost& cost : costs) text_ += fmt::format("{:g} {:g}\n", cost.seconds, cost.error);
+        text_ += "END\n";
+    }
+
+    /// The method gives a curve its colour, the outputs its marks, the device its dashes.
+    void plot(const Curve& curve, std::size_t index) {
+        const Point& p = *curve.first;
+        std::vector<Cost> costs;
+        for (const Point* point : curve.points) costs.push_back({point->seconds(), errorOf(*point, figure_)});
+        const std::string name = fmt::format("c{}", index);
+        dataBlock(name, costs);
+        const std::string color =
+            p.isReference() ? kReferenceColor : kColors[indexIn(methods_, p.method) % kColors.size()];
+        plots_ += fmt::format(", ${} using 1:2 with linespoints lw 2 pt {} dt {} ps 0.7 lc rgb '{}' title {}",
+                              name, p.isReference() ? 9 : 5 + 2 * (indexIn(outputs_, p.outputs) % 5),
+                              p.isReference() ? 1 : indexIn(devices_, p.device) % 5 + 1, color,
+                              quoted(titleOf(curve)));
+        for (const Point* point : curve.points)
+            if (p.isReference() || point == curve.points.front() || point == curve.points.back())
+                text_ +=
+                    fmt::format("set label '{}' at first {:g}, first {:g} left offset 0.6,0.5 font ',11' tc "
+                                "rgb '{}'\n",
+                                point->spp, point->seconds(), errorOf(*point, figure_), color);
+    }
+
+    const SceneSummary& scene_;
+    const std::span<const Point> points_;
+    const Figure figure_;
+    const std::vector<Curve> curves_;
+    std::vector<Cost> all_;
+    Range seconds_, errors_;
+    std::vector<std::string> devices_, methods_;
+    std::vector<int> outputs_;
+    int heightPx_ = 0;
+    std::string text_, plots_;
+};
 
 } // namespace
 
@@ -122,71 +221,7 @@ std::string shortDevice(const std::string& device) {
 }
 
 std::string chartScript(const SceneSummary& scene, std::span<const Point> points, Figure figure) {
-    const std::vector<Curve> curves = curvesOf(points, figure);
-    std::set<std::string> devices;
-    std::vector<Cost> all;
-    Range seconds, errors;
-    for (const Curve& curve : curves)
-        for (const Point* p : curve.points) {
-            if (!p->isReference()) devices.insert(p->device);
-            all.push_back({p->seconds(), errorOf(*p, figure)});
-            seconds.add(0.7 * p->seconds());
-            seconds.add(1.4 * p->seconds());
-            errors.add(0.6 * all.back().error);
-            errors.add(1.8 * all.back().error);
-        }
-    const bool manyDevices = devices.size() > 1;
-    const std::vector<std::string> notes =
-        figure == Figure::relMse ? gainLines(points, manyDevices) : std::vector<std::string>();
-
-    // From the bottom: notes, key, label and tics of the x axis, plot.
-    const int notesTop = kLineHeight * int(notes.size()) + 8;
-    const int keyTop = notesTop + kLineHeight * (int(curves.size()) / 2 + 1);
-    const int plotBottom = keyTop + 75, height = plotBottom + kPlotHeight;
-    std::string script = fmt::format(
-        "set terminal svg size {},{} font 'sans-serif,14' background '#ffffff'\n"
-        "set logscale xy\nset grid lc rgb '#d0d0d0'\nset border lc rgb '#404040'\n"
-        "set title {} noenhanced\nset xlabel 'seconds, tracing included'\nset ylabel {}\n"
-        "set xtics ({})\nset ytics ({})\nset xrange {}\nset yrange {}\nset bmargin screen {:.4f}\n"
-        "set key at screen 0.5, screen {:.4f} center bottom horizontal maxcols 2 Left reverse noenhanced\n",
-        kWidth, height,
-        quoted(fmt::format("{}, {}x{}, against {} samples a pixel", scene.name, scene.width, scene.height,
-                           scene.truthSpp)),
-        figure == Figure::relMse ? "'relMSE'" : "'FLIP'", seconds.tics(), errors.tics(), seconds.text(),
-        errors.text(), double(plotBottom) / height, double(notesTop) / height);
-    for (std::size_t i = 0; i < notes.size(); ++i)
-        script += fmt::format("set label {} noenhanced at screen 0.03, screen {:.4f} font ',12'\n",
-                              quoted(notes[i]), (notesTop - kLineHeight * (double(i) + 0.4)) / height);
-    if (figure == Figure::relMse) {
-        for (const double error : kGainErrors) script += level(error, errors, fmt::format("{:g}", error));
-        script += level(truthNoise(points, scene.truthSpp), errors, "noise of the ground truth");
-    }
-    if (curves.empty()) return script + "plot 1/0 notitle\n";
-
-    script += dataBlock("front", paretoFront(all), {});
-    std::string plots =
-        "plot $front using 1:2 with linespoints lw 9 pt 7 ps 1.6 lc rgb '#90f0c000' title 'Pareto front'";
-    std::vector<std::string> methods;
-    for (std::size_t i = 0; i < curves.size(); ++i) {
-        const Curve& curve = curves[i];
-        std::vector<Cost> costs;
-        std::vector<int> labels;
-        for (const Point* p : curve.points) {
-            costs.push_back({p->seconds(), errorOf(*p, figure)});
-            labels.push_back(p->spp);
-        }
-        script += dataBlock(fmt::format("c{}", i), costs, labels);
-        auto method = std::ranges::find(methods, curve.first->method);
-        if (method == methods.end()) method = methods.insert(methods.end(), curve.first->method);
-        const auto color = std::size_t(method - methods.begin());
-        const std::string style =
-            curve.first->isReference() ? kReferenceColor : kColors[color % kColors.size()];
-        plots +=
-            fmt::format(", $c{0} using 1:2 with linespoints lw 2 pt {1} ps 0.7 lc rgb '{2}' title {3}, "
-                        "$c{0} using 1:2:3 with labels offset 0.6,0.6 left font ',11' tc rgb '{2}' notitle",
-                        i, 4 + 2 * int(i % 6) + 1, style, quoted(titleOf(curve, manyDevices)));
-    }
-    return script + plots + "\n";
+    return Script(scene, points, figure).text();
 }
 
 } // namespace slant

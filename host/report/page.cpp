@@ -46,7 +46,13 @@ figcaption span { color: var(--faint); }
 dl { display: grid; grid-template-columns: max-content 1fr; gap: 0.2rem 1rem; }
 dt { color: var(--faint); }
 dd { margin: 0; overflow-wrap: anywhere; }
-@media (max-width: 30rem) { dl { display: block; } dd { margin-bottom: 0.5rem; } }
+@media (max-width: 30rem) {
+  body { padding: 0.7rem; }
+  table { font-size: 0.85rem; }
+  th, td { padding: 0.2rem 0.35rem; }
+  dl { display: block; }
+  dd { margin-bottom: 0.5rem; }
+}
 </style>
 </head>
 <body>
@@ -120,18 +126,18 @@ public:
 
 private:
     void addGains() {
-        html_ +=
-            "<div class=\"scroll\"><table>\n<tr><th class=\"name\">scene</th><th class=\"name\">method</th>"
-            "<th class=\"name\">device</th>";
+        html_ += "<div class=\"scroll\"><table>\n<tr><th></th><th></th>";
         for (const double error : kGainErrors)
-            html_ += fmt::format("<th>faster to {0:g}</th><th>less error in its time</th>", error);
+            html_ += fmt::format("<th colspan=\"2\">relMSE {:g}</th>", error);
+        html_ += "</tr>\n<tr><th class=\"name\">scene</th><th class=\"name\">method</th>";
+        for (std::size_t i = 0; i < std::size(kGainErrors); ++i)
+            html_ += "<th>faster</th><th>less error</th>";
         html_ += "</tr>\n";
         for (const SceneSummary& scene : results_.scenes) {
             const std::vector<MethodGain> gains = gainsOf(results_.of(scene));
             for (std::size_t i = 0; i < gains.size(); ++i) {
                 if (i % std::size(kGainErrors) == 0)
-                    html_ += fmt::format("<tr><td class=\"name\">{}</td><td class=\"name\">{}</td><td "
-                                         "class=\"name\">{}</td>",
+                    html_ += fmt::format("<tr><td class=\"name\">{}</td><td class=\"name\">{}, {}</td>",
                                          escaped(scene.name), gains[i].method,
                                          escaped(shortDevice(gains[i].device)));
                 html_ += fmt::format("<td>{}</td><td>{}</td>", factorText(gains[i].gain.equalError),
@@ -139,11 +145,10 @@ private:
             }
             html_ += "\n";
         }
-        html_ += "</table></div>\n<p>Factors over the reference at relMSE " +
-                 fmt::format("{:g}", fmt::join(kGainErrors, " and ")) +
-                 ", on lines between the measured points; \u2265 where a curve ends before, \u2014 where the "
-                 "error "
-                 "is not reached.</p>\n";
+        html_ +=
+            "</table></div>\n<p>How many times faster a method reaches a relMSE than the reference, and how "
+            "many times less its error is then than the reference's in the same time, on lines between the "
+            "measured points: \u2265 where a curve ends before, \u2014 where the error is not reached.</p>\n";
     }
 
     void addScene(const SceneSummary& scene, const SceneCharts& charts) {

@@ -62,8 +62,9 @@ struct MethodGain {
 /// `points` of one scene; by method and device in their order, each at every error of kGainErrors.
 std::vector<MethodGain> gainsOf(std::span<const Point> points);
 
-/// relMSE that the noise of the ground truth itself adds to every figure, judged by the reference's error at
-/// its most samples, which falls as one over the samples; 0 without a reference.
+/// relMSE that the noise of the ground truth itself adds to every figure, at most: judged by the reference's
+/// error at its most samples, as if it fell as one over the samples (a good pattern's falls faster); 0
+/// without a reference.
 double truthNoise(std::span<const Point> points, int truthSpp);
 
 nlohmann::ordered_json toJson(const Results& results);

@@ -39,6 +39,7 @@ public:
     }
     void endStage() override {}
     void warn(std::string_view message) override {
+        const std::scoped_lock lock(mutex_);
         const std::string text = prefix_ + std::string(message);
         if (warned_.insert(text).second) whole_.warn(text);
     }
@@ -50,7 +51,7 @@ private:
     }
 
     Monitor& whole_;
-    std::mutex mutex_; ///< guards left_
+    std::mutex mutex_; ///< guards what follows
     std::uint64_t left_ = 0;
     std::string prefix_;
     std::set<std::string> warned_;

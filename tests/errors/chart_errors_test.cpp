@@ -3,7 +3,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 namespace slant {
 namespace {
@@ -76,23 +75,21 @@ TEST_F(ChartErrors, missingGnuplotGivesStatusFiveAndLeavesNothing) {
     EXPECT_EQ(dir_.entries(), 0u);
 }
 
-TEST_F(ChartErrors, interruptionKeepsWhatIsMeasured) {
+TEST_F(ChartErrors, interruptionLeavesNoHalfFile) {
     const std::string scene = dir_.file("tiny.pbrt");
-    test::writeText(scene, "Film \"rgb\" \"integer xresolution\" 16 \"integer yresolution\" 16\n"
+    test::writeText(scene, "Film \"rgb\" \"integer xresolution\" 128 \"integer yresolution\" 128\n"
                            "WorldBegin LightSource \"distant\" Translate 0 0 5 Shape \"sphere\"\n");
-    // The reference's last point alone, a quarter of the truth's samples, takes several seconds.
+    // A thousand runs of each point take minutes.
     std::vector<std::string> words = {"timeout", "--preserve-status", "--signal=INT", "--kill-after=60",
-                                      "2",       SLANT_PROGRAM};
-    for (const std::string& word : job({scene, "-o", out_, "--devices", "cpu", "--spp", "1", "--outputs", "1",
-                                        "--truth-spp", "64", "--repeat", "1000"}))
+                                      "0.7",     SLANT_PROGRAM};
+    for (const std::string& word :
+         job({scene, "-o", out_, "--devices", "cpu", "--spp", "1", "--truth-spp", "64", "--repeat", "1000"}))
         words.push_back(word);
-    words.insert(words.end(), {"--methods", "box,full"});
     const ProgramResult result = test::runWords(words);
-    if (result.status == 0) GTEST_SKIP() << "this machine was done before it was interrupted";
     EXPECT_EQ(result.status, 130) << result.err;
     EXPECT_EQ(result.errorLines(), 1) << result.err;
-    EXPECT_TRUE(nlohmann::json::parse(test::readText(out_ + "/results.json"))["points"].is_array());
-    EXPECT_FALSE(std::filesystem::exists(out_ + "/index.html"));
+    for (const auto& entry : std::filesystem::directory_iterator(out_))
+        EXPECT_THAT(entry.path().filename().string(), testing::AnyOf("images", "results.json"));
 }
 
 } // namespace
