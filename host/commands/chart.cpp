@@ -130,9 +130,10 @@ void writeCharts(const ChartOptions& options, const Results& results) {
 void printGains(const Results& results) {
     for (const SceneSummary& scene : results.scenes)
         for (const MethodGain& g : gainsOf(results.of(scene)))
-            fmt::print("{}: {} on {}, relMSE {:g}: {} faster, {} less error in its time\n", scene.name,
-                       g.method, shortDevice(g.device), g.error, factorText(g.gain.equalError),
-                       factorText(g.gain.equalTime));
+            if (g.gain.equalError)
+                fmt::print("{}: {} on {}, relMSE {:g}: speed {}, accuracy {} (reference 1)\n", scene.name,
+                           g.method, shortDevice(g.device), g.error, factorText(g.gain.equalError),
+                           factorText(g.gain.equalTime));
 }
 
 void runChart(ChartOptions options) {

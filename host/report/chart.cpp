@@ -120,8 +120,9 @@ private:
         if (figure_ != Figure::relMse) return lines;
         for (const MethodGain& g : gainsOf(points_)) {
             if (!g.gain.equalError) continue;
-            if (lines.empty()) lines.push_back("Over the reference, at equal error and at equal time:");
-            lines.push_back(fmt::format("{}{}, relMSE {:g}: {} faster, {} less error", g.method,
+            if (lines.empty())
+                lines.push_back("Speed to equal error and accuracy in equal time, times the reference's:");
+            lines.push_back(fmt::format("{}{}, relMSE {:g}: speed {}, accuracy {}", g.method,
                                         devices_.size() > 1 ? " on " + shortDevice(g.device) : "", g.error,
                                         factorText(g.gain.equalError), factorText(g.gain.equalTime)));
         }

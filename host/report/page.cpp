@@ -130,8 +130,7 @@ private:
         for (const double error : kGainErrors)
             html_ += fmt::format("<th colspan=\"2\">relMSE {:g}</th>", error);
         html_ += "</tr>\n<tr><th class=\"name\">scene</th><th class=\"name\">method</th>";
-        for (std::size_t i = 0; i < std::size(kGainErrors); ++i)
-            html_ += "<th>faster</th><th>less error</th>";
+        for (std::size_t i = 0; i < std::size(kGainErrors); ++i) html_ += "<th>speed</th><th>accuracy</th>";
         html_ += "</tr>\n";
         for (const SceneSummary& scene : results_.scenes) {
             const std::vector<MethodGain> gains = gainsOf(results_.of(scene));
@@ -146,9 +145,12 @@ private:
             html_ += "\n";
         }
         html_ +=
-            "</table></div>\n<p>How many times faster a method reaches a relMSE than the reference, and how "
-            "many times less its error is then than the reference's in the same time, on lines between the "
-            "measured points: \u2265 where a curve ends before, \u2014 where the error is not reached.</p>\n";
+            "</table></div>\n<p>Against the reference: how many times faster a method reaches a relMSE "
+            "(speed), and "
+            "how many times less its error is then than the reference's in the same time (accuracy), on "
+            "lines "
+            "between the measured points; \u2265 where a curve ends before, \u2014 where the error is not "
+            "reached.</p>\n";
     }
 
     void addScene(const SceneSummary& scene, const SceneCharts& charts) {

@@ -3,7 +3,6 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/parallel.h"
-#include "base/read_file.h"
 #include "compute/backend.h"
 #include "image/flip.h"
 #include "image/heat_map.h"
@@ -202,7 +201,8 @@ private:
             point.map = stem + "-flip.png";
         }
         Hash hash;
-        for (const std::string& text : {content, method, device, program_, machine_}) hash.add(text);
+        for (const std::string& text : {point.scene, content, method, device, program_, machine_})
+            hash.add(text);
         for (const int number : {spp, outputs, options_.repeat, options_.truthSpp, threadCount()})
             hash.add(number);
         hash.add(options_.seed);

@@ -64,10 +64,13 @@ Image groundTruth(Scene scene, const Tracer& tracer, const std::string& contentK
                                  .string();
     if (std::optional<Image> cached = readCached(path, scene.film.crop, monitor)) return std::move(*cached);
     scene.pixelSamples = spp;
-    const Image image = bruteForce(scene, tracer, truthSeed(seed), monitor).image;
+    BruteForce truth = bruteForce(scene, tracer, truthSeed(seed), monitor);
+    if (truth.defects.total() > 0 || truth.emptyPixels > 0)
+        monitor.warn(fmt::format("the ground truth met {} invalid samples and has {} empty pixels",
+                                 truth.defects.total(), truth.emptyPixels));
     makeDirectory(directory);
-    writeExr(path, image, {{"slant:scene", scene.path}, {"slant:spp", spp}}, ExrPrecision::float32);
-    return image;
+    writeExr(path, truth.image, {{"slant:scene", scene.path}, {"slant:spp", spp}}, ExrPrecision::float32);
+    return std::move(truth.image);
 }
 
 std::string defaultCacheDirectory() {

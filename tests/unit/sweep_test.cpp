@@ -119,6 +119,11 @@ TEST_F(SweepTest, otherCircumstancesAreOtherPoints) {
     EXPECT_EQ(changed([&] { options_.exposure = 1; }), 8);
     EXPECT_EQ(changed([&] { options_.halfSize = true; }), 8);
     EXPECT_EQ(changed([&] { options_.outputs = {4, 8, 16}; }), 2);
+    EXPECT_EQ(changed([&] {
+                  options_.scenes = {dir_.file("twin.pbrt")};
+                  fs::copy_file(scene_, options_.scenes[0]);
+              }),
+              8);
     EXPECT_EQ(changed([&] { writeScene("0.6"); }), 8);
 }
 
