@@ -32,10 +32,12 @@ p { max-width: 46rem; }
 code { overflow-wrap: anywhere; }
 .scroll { overflow-x: auto; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
-th, td { padding: 0.2rem 0.7rem; text-align: right; white-space: nowrap; border-bottom: 1px solid var(--line); }
+th, td { padding: 0.2rem 0.7rem; border-bottom: 1px solid var(--line); }
+th, td { text-align: right; white-space: nowrap; }
 th { color: var(--faint); font-weight: normal; }
 .name { text-align: left; }
-.charts, .pictures { display: grid; gap: 1rem; grid-template-columns: repeat(auto-fill, minmax(min(100%, 17rem), 1fr)); }
+.charts, .pictures { display: grid; gap: 1rem; }
+.pictures { grid-template-columns: repeat(auto-fill, minmax(min(100%, 17rem), 1fr)); }
 .charts { grid-template-columns: repeat(auto-fit, minmax(min(100%, 26rem), 1fr)); }
 .charts svg { width: 100%; height: auto; }
 @media (prefers-color-scheme: dark) { .charts svg { filter: invert(0.91) hue-rotate(180deg); } }
