@@ -1,5 +1,6 @@
 #include "commands/options.h"
 
+#include "base/error.h"
 #include "base/suggest.h"
 #include "reconstruct/output_pattern.h"
 
@@ -63,6 +64,34 @@ void addSamplingOptions(CLI::App& command, CommonOptions& options) {
         ->type_name("x0,x1,y0,y1");
 }
 
+namespace {
+
+void addWindowOptions(CLI::App& command, CommonOptions& options) {
+    constexpr int kMaxRangePx = 128;
+    WindowOptions& window = options.window;
+    const auto noted = [&options](CLI::Option* option) {
+        option->each(
+            [&options, name = option->get_name()](const std::string&) { options.windowOption = name; });
+    };
+    noted(addNumber<int>(command, "--window-range", window.rangePx, 0, kMaxRangePx,
+                         "of window: pixels to each side (default 4)"));
+    noted(addNumber<float>(command, "--window-alpha", window.alpha, 0, 1e6f,
+                           "of window: the Gaussian's, per square pixel (default 100)"));
+    noted(addNumber<float>(command, "--window-delta", window.lensStep, 0, 2,
+                           "of window: lens radii within which no trajectories of a surface cross (default "
+                           "1/sqrt(spp))"));
+    noted(command.add_flag("--window-fill", window.fill,
+                           "of window: no black holes; where no sample is near, the nearest of the window"));
+}
+
+} // namespace
+
+void checkMethodOptions(const CommonOptions& options) {
+    if (options.method != Method::window && !options.windowOption.empty())
+        throw Error(ErrorCode::usage, fmt::format("{} is for --method window, not {}", options.windowOption,
+                                                  nameOf(options.method)));
+}
+
 void addReconstructionOptions(CLI::App& command, CommonOptions& options) {
     const auto outSpp = [&options](const std::string& text) {
         const auto count = parseNumber<int>(text);
@@ -87,6 +116,7 @@ void addReconstructionOptions(CLI::App& command, CommonOptions& options) {
             "--method", method,
             fmt::format("{} (default {})", fmt::join(methodNames(), " or "), nameOf(options.method)))
         ->type_name("NAME");
+    addWindowOptions(command, options);
     command
         .add_option("--device", options.device, "auto, cpu, or part of a Vulkan device's name (default auto)")
         ->type_name("NAME");

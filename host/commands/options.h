@@ -22,6 +22,8 @@ struct CommonOptions {
     // How to reconstruct.
     int outSpp = 128; ///< output samples a pixel
     Method method = Method::full;
+    WindowOptions window;
+    std::string windowOption;                           ///< one of them that was given; empty: none
     std::string device = "auto";                        ///< auto, cpu, or part of a device's name
     std::uint64_t memoryBytes = std::uint64_t(1) << 30; ///< for dense samples and intermediate buffers
     // How to run.
@@ -34,8 +36,10 @@ struct CommonOptions {
 void addSeedOption(CLI::App& command, CommonOptions& options);
 /// --spp, --seed, --crop
 void addSamplingOptions(CLI::App& command, CommonOptions& options);
-/// --out-spp, --method, --device, --memory
+/// --out-spp, --method, --window-..., --device, --memory
 void addReconstructionOptions(CLI::App& command, CommonOptions& options);
+/// Throws Error(usage) for options of a method that was not chosen.
+void checkMethodOptions(const CommonOptions& options);
 /// --threads, --quiet, --stats
 void addRunOptions(CLI::App& command, CommonOptions& options);
 

@@ -23,6 +23,7 @@ ReconstructOptions reconstructOptions(const CommonOptions& common, const Scene& 
                                       const Backend& backend) {
     ReconstructOptions options;
     options.method = common.method;
+    options.window = common.window;
     options.outputsPerPixel = common.outSpp;
     options.filter = scene.filter;
     options.seed = common.seed;
@@ -100,6 +101,7 @@ nlohmann::ordered_json detailsOf(const RenderOptions& options, const Scene& scen
 void runRender(RenderOptions options) {
     const Stopwatch watch;
     const CommonOptions& common = options.picture.common;
+    checkMethodOptions(common);
     const ThreadLimit threads(common.threads);
     TerminalMonitor monitor(TerminalMonitor::styleOfStderr(common.quiet));
     Backend backend(common.device, common.threads);

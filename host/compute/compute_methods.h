@@ -30,6 +30,6 @@ struct ComputeRun {
 };
 
 using ComputeMethod = void(ComputeRun& run);
-ComputeMethod boxMethod, fullMethod;
+ComputeMethod boxMethod, windowMethod, fullMethod;
 
 } // namespace slant

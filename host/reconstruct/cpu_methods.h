@@ -29,6 +29,6 @@ struct CpuRun {
 };
 
 using CpuMethod = void(CpuRun& run);
-CpuMethod boxMethod, fullMethod;
+CpuMethod boxMethod, windowMethod, fullMethod;
 
 } // namespace slant

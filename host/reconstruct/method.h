@@ -16,10 +16,11 @@
 namespace slant {
 
 enum class Method {
-    box,  ///< the pixel filter over the input samples: no reconstruction
-    full, ///< reprojection, apparent surfaces and visibility for every output (Lehtinen et al. 2011)
+    box,    ///< the pixel filter over the input samples: no reconstruction
+    window, ///< reprojection within a fixed window of pixels: what this program grew from, for comparison
+    full,   ///< reprojection, apparent surfaces and visibility for every output (Lehtinen et al. 2011)
 };
-inline constexpr std::size_t kMethodCount = 2;
+inline constexpr std::size_t kMethodCount = 3;
 
 /// What users call the methods, in the order of Method.
 std::span<const std::string> methodNames();
@@ -28,10 +29,19 @@ std::optional<Method> parseMethod(std::string_view name);
 /// Whether it makes outputs, so that their number matters.
 bool usesOutputs(Method method);
 
+/// Of the method `window`; the defaults are those of the program that it is taken from.
+struct WindowOptions {
+    int rangePx = 4;                    ///< samples of pixels that far away to each side are looked at
+    float alpha = 100;                  ///< of the Gaussian exp(-alpha distance^2), per square pixel
+    std::optional<float> lensStep = {}; ///< lens radii; unset: 1 / sqrt(samples a pixel)
+    bool fill = false; ///< where no sample is near, take the nearest of the window; else the output is black
+};
+
 struct ReconstructOptions {
     Method method = Method::full;
     int outputsPerPixel = 128; ///< a power of two; `box` has none
     PixelFilter filter;
+    WindowOptions window;
     std::uint64_t seed = 0;
     std::uint64_t memoryBytes = std::uint64_t(1) << 30; ///< for dense samples and lists
 };

@@ -1,5 +1,7 @@
 #include "reconstruct/search.h"
 
+#include "reconstruct/hull.h"
+
 #include <limits>
 
 namespace slant {
@@ -53,25 +55,6 @@ int forEachCandidate(const SearchContext& context, const Output& output, float r
         }
     }
     return iterations;
-}
-
-/// Whether the output lies inside the convex hull of samples, one at a time: it does where, seen from it,
-/// those above span directions beyond those below on both sides.
-struct Hull {
-    vec2 upper{kInfinity, -kInfinity}; ///< least and greatest x/y of samples with y >= 0
-    vec2 lower{kInfinity, -kInfinity}; ///< ... with y < 0
-};
-
-void addPoint(Hull& hull, vec2 offset) {
-    const float ratio = offset.x / offset.y;
-    if (offset.y >= 0)
-        hull.upper = vec2(glm::min(hull.upper.x, ratio), glm::max(hull.upper.y, ratio));
-    else
-        hull.lower = vec2(glm::min(hull.lower.x, ratio), glm::max(hull.lower.y, ratio));
-}
-
-bool surrounds(const Hull& hull) {
-    return hull.upper.y > hull.lower.x && hull.upper.x < hull.lower.y;
 }
 
 vec3 radianceOf(const SearchContext& context, const Candidate& candidate) {

@@ -65,6 +65,11 @@ TEST_F(RenderErrors, wrongOptionsGiveStatusTwoBeforeTheSceneIsRead) {
     renderFails(2, none, {"--spp", "0"});
     renderFails(2, none, {"--memory", "15M"});
     renderFails(2, none, {"--compare", "gpu"});
+    for (const std::vector<std::string>& option : std::vector<std::vector<std::string>>{
+             {"--window-range", "2"}, {"--window-alpha", "9"}, {"--window-delta", "0.1"}, {"--window-fill"}})
+        EXPECT_THAT(renderFails(2, none, option).err, HasSubstr(option[0] + " is for --method window"));
+    renderFails(2, none, {"--method", "window", "--window-range", "-1"});
+    renderFails(2, none, {"--method", "window", "--window-alpha", "nan"});
     EXPECT_THAT(renderFails(2, none, {"--method", "ful"}).err, HasSubstr("did you mean 'full'?"));
     EXPECT_THAT(renderFails(2, kSpheres, {"--device", "cpu", "--crop", "480,500,0,10"}).err,
                 HasSubstr("480x270"));

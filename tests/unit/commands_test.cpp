@@ -131,7 +131,7 @@ TEST(Options, fillOneStruct) {
     addRunOptions(app, options);
     app.parse(
         "--spp 8 --seed 7 --crop 0,10,0,20 --out-spp 64 --method box --device cpu --memory 64M --threads 2 "
-        "--quiet --stats s.json");
+        "--quiet --stats s.json --window-range 7 --window-alpha 2.5 --window-delta 0.25 --window-fill");
     EXPECT_EQ(options.spp, 8);
     EXPECT_EQ(options.seed, 7u);
     EXPECT_EQ(options.crop, (Rect{0, 0, 10, 20}));
@@ -139,6 +139,13 @@ TEST(Options, fillOneStruct) {
     EXPECT_EQ(options.method, Method::box);
     EXPECT_EQ(options.device, "cpu");
     EXPECT_EQ(options.memoryBytes, 64u << 20);
+    EXPECT_EQ(options.window.rangePx, 7);
+    EXPECT_EQ(options.window.alpha, 2.5f);
+    EXPECT_EQ(options.window.lensStep, 0.25f);
+    EXPECT_TRUE(options.window.fill);
+    EXPECT_THROW(checkMethodOptions(options), Error); // they are not of box
+    options.method = Method::window;
+    EXPECT_NO_THROW(checkMethodOptions(options));
     EXPECT_EQ(options.threads, 2);
     EXPECT_TRUE(options.quiet);
     EXPECT_EQ(options.statsPath, "s.json");

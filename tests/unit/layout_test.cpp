@@ -4,6 +4,7 @@
 #include "shared/radix.h"
 #include "shared/reconstruct.h"
 #include "shared/scan.h"
+#include "shared/window.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -43,6 +44,8 @@ const Layout kLayouts[] = {
     STRUCT(FilterPush, MEMBER(FilterPush, regionSize), MEMBER(FilterPush, reach),
            MEMBER(FilterPush, tableLength), MEMBER(FilterPush, filmSize), MEMBER(FilterPush, firstRow),
            MEMBER(FilterPush, rowCount), MEMBER(FilterPush, firstPlane), MEMBER(FilterPush, planeCount)),
+    STRUCT(WindowPush, MEMBER(WindowPush, search), MEMBER(WindowPush, outputs), MEMBER(WindowPush, lensCells),
+           MEMBER(WindowPush, firstOutput), MEMBER(WindowPush, count)),
     STRUCT(LowerBoundPush, MEMBER(LowerBoundPush, keyCount), MEMBER(LowerBoundPush, count)),
 };
 

@@ -1,0 +1,56 @@
+// One output of the method `window`: the samples of a fixed window of pixels around it, after Shu-Hung You,
+// "Exploring Light-Field Reconstruction on Realistic Camera" (2014), section 2, the program that Slant grew
+// from. Two things differ: weights are normalised (its pictures darkened with more samples), and a surface
+// surrounds an output where the convex hull of its samples does, found in one sweep instead of trying all
+// triangles. Samples that blur moves further than the window are not found: the larger the blur, the more
+// outputs find nothing at all.
+#pragma once
+#include "lightfield/lightfield.h"
+#include "reconstruct/method.h"
+#include "reconstruct/output_pattern.h"
+#include "shared/window.h"
+
+#include <vector>
+
+namespace slant {
+
+/// Samples in the order of the field, as the search reads them.
+struct WindowSamples {
+    std::vector<vec4> positions; ///< pinhole position x, y, slope, 0; far off where the sample is disabled
+    std::vector<vec4> radiances; ///< r, g, b, alpha
+};
+
+WindowSamples windowSamples(const LightField& field);
+
+WindowSearch windowSearch(const LightField& field, const WindowOptions& options);
+
+/// Steps of the loops over a whole window; beyond kMaxWindowSteps the compute path leaves it to the CPU.
+std::uint64_t windowSteps(const WindowSearch& search);
+
+enum class WindowOutcome {
+    found,  ///< by one surface alone
+    parted, ///< surfaces had to be told apart
+    filled, ///< nothing within the radius: the nearest sample of the window
+    hole,   ///< nothing: black
+};
+
+struct WindowResult {
+    WindowOutcome outcome = WindowOutcome::hole;
+    vec3 rgb{0};
+};
+
+/// A sample within the radius, seen from the output's lens position.
+struct WindowCandidate {
+    vec2 offset; ///< from the output, pixels
+    float distance2, slope;
+    uint record;
+};
+
+/// `scratch` holds nothing between calls; it saves allocations.
+WindowResult lookThroughWindow(const WindowSamples& samples, const WindowSearch& search, ivec2 pixel,
+                               const Output& output, std::vector<WindowCandidate>& scratch);
+
+/// e^-x for 0 <= x <= 80, within 3 ulp, with the bits that lib/gaussian.glsl gives.
+float expOfMinus(float x);
+
+} // namespace slant

@@ -1,0 +1,45 @@
+// What the method `window` shares between C++ and GLSL.
+#ifndef SLANT_SHARED_WINDOW_H
+#define SLANT_SHARED_WINDOW_H
+#include "shared/reconstruct.h"
+
+SLANT_SHARED_BEGIN
+
+/// Samples near an output that a shader can sort; outputs with more are left to the CPU.
+SLANT_SHARED_CONSTANT int kMaxWindowCandidates = 48;
+/// Samples of a window, and its rows, that a shader looks at. The loop over them is the same for a whole
+/// vector of invocations; with what 16 of them take to sort kMaxWindowCandidates each it stays below
+/// lavapipe's 65,535 steps.
+SLANT_SHARED_CONSTANT int kMaxWindowSteps = 40000;
+/// Samples that are one surface whatever their order: the fewest that can surround an output.
+SLANT_SHARED_CONSTANT int kLeastSurface = 3;
+/// The Gaussian ends here, at e^-40: a lone distant sample still has a weight.
+SLANT_SHARED_CONSTANT float kMaxExponent = 40.0f;
+
+/// One more counter beside kHoleCount and its like: outputs that took the nearest sample of their window.
+SLANT_SHARED_CONSTANT uint kFilledCount = 3u;
+
+/// How an output is found in its window.
+struct WindowSearch {
+    ivec2 boundsOrigin; // pixel; samples stand in the order row, column, sample of a pixel
+    ivec2 boundsSize;   // pixels
+    int samplesPerPixel;
+    int rangePx;    // the window is 2 rangePx + 1 pixels wide
+    float radiusPx; // samples that reproject to within it count
+    float alpha;    // of the Gaussian, per square pixel
+    float lensStep; // trajectories that cross within it to either side are different surfaces
+    uint fill;      // not 0: where nothing counts, the nearest sample of the window stands in
+};
+
+/// window: outputs of one chunk.
+struct WindowPush {
+    WindowSearch search;
+    OutputLayout outputs;
+    ivec2 lensCells;
+    int firstOutput; // of the chunk
+    uint count;      // invocations
+};
+
+SLANT_SHARED_END
+
+#endif
