@@ -61,7 +61,6 @@ void main() {
     const int index = push.firstOutput + int(k);
     const Output o = outputAt(pixel, index, texelFetch(pattern, index), push.lensCells, outputs.seed);
 
-    // Front to back, in the order of samples where slopes are equal.
     float slopes[kMaxWindowCandidates];
     uint records[kMaxWindowCandidates];
     int found = 0;
@@ -82,13 +81,8 @@ void main() {
             }
             if (!(candidate.distance2 < radius2)) continue;
             if (found < kMaxWindowCandidates) {
-                int at = found;
-                for (; at > 0 && slopes[at - 1] > candidate.slope; --at) {
-                    slopes[at] = slopes[at - 1];
-                    records[at] = records[at - 1];
-                }
-                slopes[at] = candidate.slope;
-                records[at] = record;
+                slopes[found] = candidate.slope;
+                records[found] = record;
             }
             ++found;
         }
@@ -103,6 +97,20 @@ void main() {
         const vec3 rgb = filled ? texelFetch(radiances, int(nearest)).rgb : vec3(0.0);
         imageStore(dense, int(slot), vec4(rgb, o.positionCode));
         return;
+    }
+
+    // Front to back, in the order of samples where slopes are equal. Not while they are gathered: lavapipe counts a step
+    // of an inner loop even where it is not entered.
+    for (int i = 1; i < found; ++i) {
+        const float slope = slopes[i];
+        const uint record = records[i];
+        int at = i;
+        for (; at > 0 && slopes[at - 1] > slope; --at) {
+            slopes[at] = slopes[at - 1];
+            records[at] = records[at - 1];
+        }
+        slopes[at] = slope;
+        records[at] = record;
     }
 
     WindowSurface front = noSurface(), surface = noSurface();

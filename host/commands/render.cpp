@@ -6,6 +6,7 @@
 #include "reconstruct/cpu_reconstructor.h"
 #include "reconstruct/plan.h"
 #include "reconstruct/stage_compare.h"
+#include "reconstruct/window.h"
 #include "trace/sample_pass.h"
 
 #include <bit>
@@ -94,6 +95,13 @@ nlohmann::ordered_json detailsOf(const RenderOptions& options, const Scene& scen
         details["widened"] = report.widened;
         details["holes"] = report.holes;
         details["overflowed"] = report.overflowed;
+    }
+    if (common.method == Method::window) {
+        const WindowSearch search = windowSearch(field, common.window);
+        details["windowRange"] = search.rangePx;
+        details["windowAlpha"] = search.alpha;
+        details["windowDelta"] = search.lensStep;
+        details["windowFill"] = search.fill != 0;
     }
     return details;
 }

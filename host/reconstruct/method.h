@@ -61,8 +61,8 @@ public:
 struct ReconstructReport {
     std::uint64_t outputs = 0;    ///< reconstructed samples
     std::uint64_t visibility = 0; ///< of them, those that needed apparent surfaces told apart
-    std::uint64_t widened = 0;    ///< those that found nothing within 2 R
-    std::uint64_t holes = 0;      ///< those that found nothing within 16 R and were left out
+    std::uint64_t widened = 0; ///< those that found nothing within 2 R (window: and took the nearest sample)
+    std::uint64_t holes = 0;   ///< those that found nothing at all and were left out (window: are black)
     std::uint64_t overflowed =
         0; ///< those that met the candidate limit of the compute path and were done on the CPU
     std::uint64_t emptyPixels = 0; ///< pixels that no sample reached

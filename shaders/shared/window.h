@@ -6,11 +6,10 @@
 SLANT_SHARED_BEGIN
 
 /// Samples near an output that a shader can sort; outputs with more are left to the CPU.
-SLANT_SHARED_CONSTANT int kMaxWindowCandidates = 48;
-/// Samples of a window, and its rows, that a shader looks at. The loop over them is the same for a whole
-/// vector of invocations; with what 16 of them take to sort kMaxWindowCandidates each it stays below
-/// lavapipe's 65,535 steps.
-SLANT_SHARED_CONSTANT int kMaxWindowSteps = 40000;
+SLANT_SHARED_CONSTANT int kMaxWindowCandidates = 64;
+/// Samples of a window, and its rows, that a shader looks at. These loops are the same for a whole vector of
+/// invocations; with what it takes to sort kMaxWindowCandidates they stay below lavapipe's 65,535 steps.
+SLANT_SHARED_CONSTANT int kMaxWindowSteps = 60000;
 /// Samples that are one surface whatever their order: the fewest that can surround an output.
 SLANT_SHARED_CONSTANT int kLeastSurface = 3;
 /// The Gaussian ends here, at e^-40: a lone distant sample still has a weight.
