@@ -1,8 +1,8 @@
 #version 460
-// Records in the order of their sorted keys, and 1 where a new brick begins.
+// Records in the order of their sorted keys, with the weights of their visibility, and 1 where a new brick begins.
 #extension GL_GOOGLE_include_directive : require
 #include "lib/invocation.glsl"
-#include "shared/reconstruct.h"
+#include "lib/occlusion.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform utextureBuffer keys;
@@ -12,6 +12,7 @@ layout(set = 0, binding = 3) uniform textureBuffer sampleRadiances;
 layout(set = 0, binding = 4, rgba32f) uniform writeonly imageBuffer positions;
 layout(set = 0, binding = 5, rgba32f) uniform writeonly imageBuffer radiances;
 layout(set = 0, binding = 6, r32ui) uniform writeonly uimageBuffer brickBegins;
+layout(set = 0, binding = 7) uniform utextureBuffer stopped;
 layout(push_constant) uniform Push { BinPush push; };
 
 void main() {
@@ -22,7 +23,10 @@ void main() {
         return;
     }
     const int index = int(texelFetch(indices, int(i)).x);
-    imageStore(positions, int(i), texelFetch(samplePositions, index));
+    const vec3 position = texelFetch(samplePositions, index).xyz;
+    const int block = blockOf(push.occlusion, position.xy, position.z, push.grid.origin);
+    const float weight = visibilityWeight(push.occlusion, texelFetch(stopped, block).x);
+    imageStore(positions, int(i), vec4(position, weight));
     imageStore(radiances, int(i), texelFetch(sampleRadiances, index));
     const uint cells = uint(push.grid.cellsPerBrick * push.grid.cellsPerBrick);
     const uint brick = texelFetch(keys, int(i)).x / cells;

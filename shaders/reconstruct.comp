@@ -25,7 +25,7 @@ void visit(Candidate candidate, inout Sweep sweep) {
         sweep.running = false; // there is another surface behind
         return;
     }
-    const float weight = 1.0 - sqrt(candidate.distance2) * sweep.invRadius;
+    const float weight = candidate.weight * (1.0 - sqrt(candidate.distance2) * sweep.invRadius);
     sweep.sum += weight * radianceAt(candidate.record);
     sweep.weightSum += weight;
     sweep.slopeMax = max(sweep.slopeMax, candidate.slope);

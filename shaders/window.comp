@@ -29,7 +29,7 @@ WindowSurface noSurface() { return WindowSurface(0, vec3(0.0), 0.0, noHull()); }
 Candidate candidateAt(uint record, Output o) {
     const vec4 position = texelFetch(positions, int(record));
     const vec2 offset = position.xy + position.z * o.uv - o.xy;
-    return Candidate(offset, offset.x * offset.x + offset.y * offset.y, position.z, record);
+    return Candidate(offset, offset.x * offset.x + offset.y * offset.y, position.z, 1.0, record);
 }
 
 void addSample(inout WindowSurface surface, Candidate candidate, float alpha) {

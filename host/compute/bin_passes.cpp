@@ -1,6 +1,6 @@
 #include "compute/bin_passes.h"
 
-#include "reconstruct/grid.h"
+#include "reconstruct/occlusion.h"
 
 #include <algorithm>
 
@@ -20,16 +20,18 @@ uint lastWord(const Buffer& buffer) {
 } // namespace
 
 struct BinPasses::Placed {
-    Placed(Device& device, std::uint64_t count)
+    Placed(Device& device, std::uint64_t count, std::uint64_t stoppedTexels)
         : positions(device, TexelFormat::rgba32f, count), radiances(device, TexelFormat::rgba32f, count),
-          pairs(device, count) {}
+          stopped(device, TexelFormat::r32ui, stoppedTexels), pairs(device, count) {}
     Buffer positions, radiances;
+    Buffer stopped;    ///< rays that end before each block
     PairBuffers pairs; ///< sort key, sample index
 };
 
 BinPasses::BinPasses(Device& device)
-    : device_(device), place_(device, "bin_place"), gather_(device, "bin_gather"),
-      bounds_(device, "bin_bounds"), bricks_(device, "bin_bricks"), cells_(device, "bin_cells") {}
+    : device_(device), place_(device, "bin_place"), occlude_(device, "bin_occlude"),
+      gather_(device, "bin_gather"), bounds_(device, "bin_bounds"), bricks_(device, "bin_bricks"),
+      cells_(device, "bin_cells") {}
 
 void BinPasses::place(CommandList& commands, const LightField& field, BinPush push, Placed& placed) {
     const std::size_t part = std::min(kUploadSamples, field.samples.size());
@@ -41,6 +43,7 @@ void BinPasses::place(CommandList& commands, const LightField& field, BinPush pu
         commands.dispatch(
             place_, {upload, placed.positions, placed.radiances, placed.pairs.keys, placed.pairs.values},
             push, place_.gridFor(push.count));
+        commands.dispatch(occlude_, {upload, placed.stopped}, push, occlude_.gridFor(push.count));
         commands.run();
     }
 }
@@ -49,11 +52,13 @@ DeviceBins BinPasses::run(CommandList& commands, const LightField& field, const 
                           float marginPx) {
     BinPush push{};
     push.grid = chooseGrid(field, region, marginPx);
+    push.occlusion = chooseOcclusion(push.grid, field.samplesPerPixel);
     push.regionMin = ivec2(region.x0, region.y0);
     push.regionMax = ivec2(region.x1, region.y1);
     push.marginPx = marginPx;
 
-    Placed placed(device_, field.samples.size());
+    Placed placed(device_, field.samples.size(), stoppedBlocks(push.occlusion));
+    commands.fill(placed.stopped, 0);
     place(commands, field, push, placed);
 
     const GridLayout& grid = push.grid;
@@ -70,10 +75,10 @@ DeviceBins BinPasses::run(CommandList& commands, const LightField& field, const 
     Buffer positions(device_, TexelFormat::rgba32f, kept), radiances(device_, TexelFormat::rgba32f, kept);
     Buffer brickOfRecord(device_, TexelFormat::r32ui, kept + 1);
     push.count = uint(kept);
-    commands.dispatch(
-        gather_,
-        {sorted.keys, sorted.values, placed.positions, placed.radiances, positions, radiances, brickOfRecord},
-        push, gather_.gridFor(kept + 1));
+    commands.dispatch(gather_,
+                      {sorted.keys, sorted.values, placed.positions, placed.radiances, positions, radiances,
+                       brickOfRecord, placed.stopped},
+                      push, gather_.gridFor(kept + 1));
     const Scan scan(device_, kept + 1);
     scan.record(commands, brickOfRecord, kept + 1);
     commands.run();

@@ -23,12 +23,12 @@ public:
     DeviceBins run(CommandList& commands, const LightField& field, const Rect& region, float marginPx);
 
 private:
-    /// What bin_place makes of the samples, in sample order.
+    /// What bin_place makes of the samples, in sample order, and bin_occlude.
     struct Placed;
     void place(CommandList& commands, const LightField& field, BinPush push, Placed& placed);
 
     Device& device_;
-    Pass place_, gather_, bounds_, bricks_, cells_;
+    Pass place_, occlude_, gather_, bounds_, bricks_, cells_;
 };
 
 } // namespace slant

@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "base/sort.h"
+#include "reconstruct/occlusion.h"
 
 #include <algorithm>
 
@@ -74,6 +75,9 @@ Bins binSamples(const LightField& field, const Rect& region, float marginPx) {
     const Order order = sortedSamples(field, region, marginPx, bins.grid);
     const std::size_t count = order.keys.size();
 
+    const OcclusionLayout occlusion = chooseOcclusion(bins.grid, field.samplesPerPixel);
+    const std::vector<uint> stopped = countStopped(field, bins.grid, occlusion);
+
     bins.positions.reserve(count);
     bins.radiances.reserve(count);
     std::vector<BrickBounds> bricks;
@@ -86,7 +90,8 @@ Bins binSamples(const LightField& field, const Rect& region, float marginPx) {
                           s.slope);
         // Cells up to this one begin here at the latest.
         bins.cellStart.resize((bricks.size() - 1) * cellsPerBrick + cell + 1, uint(record));
-        bins.positions.emplace_back(pinholePosition(s), s.slope, 0);
+        const vec2 p = pinholePosition(s);
+        bins.positions.emplace_back(p, s.slope, visibilityWeight(stopped, bins.grid, occlusion, p, s.slope));
         bins.radiances.emplace_back(s.r, s.g, s.b, s.alpha);
     }
     for (const BrickBounds& bounds : bricks) bins.bricks.push_back(bounds.brick(bins.grid));

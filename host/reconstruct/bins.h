@@ -17,7 +17,8 @@ struct Bins {
     GridLayout grid{};
     std::vector<Brick> bricks;   ///< occupied bricks, ascending in (bucket, row, column)
     std::vector<uint> cellStart; ///< bricks * cellsPerBrick^2 + 1: first record of each cell
-    std::vector<vec4> positions; ///< records in cell order, in sample order within a cell: p.x, p.y, slope, 0
+    std::vector<vec4> positions; ///< records in cell order, in sample order within a cell: p.x, p.y, slope,
+                                 ///< visibilityWeight
     std::vector<vec4> radiances; ///< r, g, b, alpha
 };
 

@@ -13,6 +13,8 @@ namespace slant {
 /// pattern. On `spheres` 1.5 / sqrt(spp) gives the same error.
 float emptyCircleRadius(int samplesPerPixel);
 
+constexpr float kFarPx = 1e9f; ///< further than any sample that can be seen
+
 /// Pinhole position of a sample.
 inline vec2 pinholePosition(const LightFieldSample& s) {
     return vec2(s.x, s.y) - s.slope * vec2(s.u, s.v);

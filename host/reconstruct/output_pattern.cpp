@@ -1,6 +1,7 @@
 #include "reconstruct/output_pattern.h"
 
 #include "base/error.h"
+#include "reconstruct/hash.h"
 
 #include <algorithm>
 #include <bit>
@@ -88,14 +89,6 @@ int groupBitsFor(int outputsPerPixel, float slopePx) {
            (bits == 0 || 2 * std::sqrt(float(2 << bits) / float(outputsPerPixel)) * slopePx <= kSpreadPx))
         ++bits;
     return bits;
-}
-
-uint hash(uint x) {
-    x ^= x >> 16;
-    x *= 0x7feb352du;
-    x ^= x >> 15;
-    x *= 0x846ca68bu;
-    return x ^ (x >> 16);
 }
 
 /// Nested uniform scramble of bit-reversed x (Laine and Karras 2011; constants of Burley 2020, listing 1).

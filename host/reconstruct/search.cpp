@@ -14,6 +14,7 @@ struct Candidate {
     vec2 offset; ///< from the output, pixels
     float distance2;
     float slope;
+    float weight; ///< see visibilityWeight
     uint record;
 };
 
@@ -49,7 +50,8 @@ int forEachCandidate(const SearchContext& context, const Output& output, float r
                 const vec4& position = context.bins.positions[record];
                 const vec2 offset = vec2(position.x, position.y) + position.z * output.uv - output.xy;
                 const float distance2 = offset.x * offset.x + offset.y * offset.y;
-                if (distance2 < radius * radius && !visit(Candidate{offset, distance2, position.z, record}))
+                if (distance2 < radius * radius &&
+                    !visit(Candidate{offset, distance2, position.z, position.w, record}))
                     return iterations;
             }
         }
@@ -74,7 +76,7 @@ Reconstructed reconstructNearest(const SearchContext& context, const Output& out
     result.iterations = forEachCandidate(context, output, grid.radiusPx, [&](const Candidate& candidate) {
         another = weightSum > 0 && candidate.slope > slopeMax + grid.surfaceGap;
         if (another) return false;
-        const float weight = 1 - glm::sqrt(candidate.distance2) * invRadius;
+        const float weight = candidate.weight * (1 - glm::sqrt(candidate.distance2) * invRadius);
         sum += weight * radianceOf(context, candidate);
         weightSum += weight;
         slopeMax = glm::max(slopeMax, candidate.slope);
@@ -100,7 +102,8 @@ struct Surface {
 
 void addSample(Surface& surface, const Candidate& candidate, const vec3& rgb, float baseRadius) {
     const float distance = glm::sqrt(candidate.distance2) / baseRadius;
-    const float inner = glm::max(1 - distance, 0.f), outer = 2 - distance;
+    const float inner = candidate.weight * glm::max(1 - distance, 0.f),
+                outer = candidate.weight * (2 - distance);
     surface.count += 1;
     surface.slopeMax = glm::max(surface.slopeMax, candidate.slope);
     surface.innerSum += inner * rgb;

@@ -5,8 +5,6 @@
 namespace slant {
 namespace {
 
-constexpr float kFarPx = 1e9f; ///< further than any sample that can be seen
-
 int tileOf(float px) {
     return int(glm::floor(glm::clamp(px * (1.f / float(kTileSize)), -1e6f, 1e6f)));
 }

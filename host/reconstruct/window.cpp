@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// A pinhole position that no output is near to.
-constexpr float kFarPx = 1e18f;
+constexpr float kNowherePx = 1e18f;
 
 /// What is known of an apparent surface.
 struct WindowSurface {
@@ -86,7 +86,7 @@ WindowSamples windowSamples(const LightField& field) {
             const LightFieldSample& s = field.samples[i];
             const vec2 p = pinholePosition(s);
             const bool seen = std::isfinite(p.x) && std::isfinite(p.y); // so that p + slope u is no NaN
-            samples.positions[i] = seen ? vec4(p, s.slope, 0) : vec4(kFarPx, kFarPx, 0, 0);
+            samples.positions[i] = seen ? vec4(p, s.slope, 0) : vec4(kNowherePx, kNowherePx, 0, 0);
             samples.radiances[i] = vec4(s.r, s.g, s.b, s.alpha);
         }
     });

@@ -4,7 +4,7 @@
 #define SLANT_LIB_BINS_GLSL
 #include "lib/grid.glsl"
 
-layout(set = 0, binding = 0) uniform textureBuffer positions;   // p.x, p.y, slope, 0
+layout(set = 0, binding = 0) uniform textureBuffer positions;   // p.x, p.y, slope, visibility weight
 layout(set = 0, binding = 1) uniform textureBuffer radiances;   // r, g, b, alpha
 layout(set = 0, binding = 2) uniform utextureBuffer cellStart;
 layout(set = 0, binding = 3) uniform utextureBuffer listStart;

@@ -10,6 +10,7 @@ struct Candidate {
     vec2 offset; // from the output, pixels
     float distance2;
     float slope;
+    float weight; // see lib/occlusion.glsl
     uint record;
 };
 

@@ -1,6 +1,7 @@
 // Where the outputs of a pixel lie in pixel, lens and time. As host/reconstruct/output_pattern.cpp.
 #ifndef SLANT_LIB_OUTPUT_PATTERN_GLSL
 #define SLANT_LIB_OUTPUT_PATTERN_GLSL
+#include "lib/hash.glsl"
 #include "shared/reconstruct.h"
 
 struct Output {
@@ -9,14 +10,6 @@ struct Output {
     float t;
     float positionCode;
 };
-
-uint hash(uint x) {
-    x ^= x >> 16;
-    x *= 0x7feb352du;
-    x ^= x >> 15;
-    x *= 0x846ca68bu;
-    return x ^ (x >> 16);
-}
 
 /// Nested uniform scramble of bit-reversed x (Laine and Karras 2011; constants of Burley 2020, listing 1).
 uint owenScramble(uint reversed, uint seed) {

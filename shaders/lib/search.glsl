@@ -34,7 +34,7 @@ bool forEachCandidate(GridLayout grid, Output o, float radius, uint listBegin, u
                 const vec4 position = positionAt(record);
                 const vec2 offset = position.xy + position.z * o.uv - o.xy;
                 const float distance2 = offset.x * offset.x + offset.y * offset.y;
-                if (distance2 < radius * radius) visit(Candidate(offset, distance2, position.z, record), sweep);
+                if (distance2 < radius * radius) visit(Candidate(offset, distance2, position.z, position.w, record), sweep);
             }
         }
     }

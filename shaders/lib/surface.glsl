@@ -17,7 +17,7 @@ Surface noSurface() {
 
 void addSample(inout Surface surface, Candidate candidate, vec3 rgb, float baseRadius) {
     const float distance_ = sqrt(candidate.distance2) / baseRadius;
-    const float inner = max(1.0 - distance_, 0.0), outer = 2.0 - distance_;
+    const float inner = candidate.weight * max(1.0 - distance_, 0.0), outer = candidate.weight * (2.0 - distance_);
     surface.count += 1;
     surface.slopeMax = max(surface.slopeMax, candidate.slope);
     surface.innerSum += inner * rgb;

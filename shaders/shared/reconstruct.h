@@ -28,6 +28,8 @@ SLANT_SHARED_CONSTANT int kSubpixels = 4096;
 /// overflowed. lavapipe breaks loops in silence after 65,535 steps of a vector of up to 16 invocations, which
 /// takes every step that any of them takes.
 SLANT_SHARED_CONSTANT int kMaxLoopIterations = 4000;
+/// The least part of the lens from which a sample that was seen is taken to be visible.
+SLANT_SHARED_CONSTANT float kLeastVisible = 0.0625f;
 /// Sort key of a sample that no output can use.
 SLANT_SHARED_CONSTANT uint kNotBinned = 0xffffffffu;
 
@@ -73,9 +75,22 @@ SLANT_SHARED_CONSTANT uint kHoleCount = 1u;       // outputs that found nothing
 SLANT_SHARED_CONSTANT uint kOverflowCount = 2u;   // outputs over kMaxLoopIterations
 SLANT_SHARED_CONSTANT uint kCounters = 4u;
 
-/// bin_place, bin_gather, bin_cells.
+/// Planes of constant slope, cut into square blocks, in each of which the rays are counted that end before they
+/// reach it.
+struct OcclusionLayout {
+    ivec2 blockCount;   // along x and y, from the grid's origin
+    float invBlock;     // 1 / (side of a block in pixels)
+    int planeCount;     // plane k stands for slopes from slopeMin + k * spacing on
+    float slopeMin;     // pixels per lens radius
+    float spacing;      // of planes
+    uint stride;        // one sample in so many is followed
+    float raysPerBlock; // of these, if none were stopped
+};
+
+/// bin_place, bin_occlude, bin_gather, bin_cells.
 struct BinPush {
     GridLayout grid;
+    OcclusionLayout occlusion;
     ivec2 regionMin, regionMax; // pixels whose outputs count
     float marginPx;             // widest search
     uint firstSample;           // of the uploaded part

@@ -1,0 +1,90 @@
+#include "reconstruct/occlusion.h"
+
+#include "base/parallel.h"
+#include "reconstruct/hash.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace slant {
+namespace {
+
+/// Finer ones give the same pictures: blocks of 1 or 2 px, planes closer to one another.
+constexpr float kBlockPx = 4, kLeastSpacingPx = 1;
+constexpr int kMaxPlanes = 128;
+constexpr int kRaysPerPixel = 8;
+
+/// One ray in `stride`, chosen by its place, so that the order of samples does not matter.
+bool isFollowed(const OcclusionLayout& layout, vec2 xy) {
+    return hash(std::bit_cast<uint>(xy.x) ^ hash(std::bit_cast<uint>(xy.y))) % layout.stride == 0;
+}
+
+/// The first plane that lies behind a sample's surface.
+int firstPlaneBehind(const OcclusionLayout& layout, float slope, float surfaceGap) {
+    const float steps = glm::floor((slope + surfaceGap - layout.slopeMin) / layout.spacing) + 1.f;
+    return int(glm::clamp(steps, 0.f, float(layout.planeCount)));
+}
+
+float planeSlope(const OcclusionLayout& layout, int plane) {
+    return layout.slopeMin + (float(plane) + 0.5f) * layout.spacing;
+}
+
+/// The block of a plane that a ray crosses at p, and -1 where it crosses none.
+int blockCrossed(const OcclusionLayout& layout, int plane, vec2 p, vec2 origin) {
+    const vec2 place = glm::floor((p - origin) * layout.invBlock);
+    const ivec2 blocks = layout.blockCount;
+    if (place.x < 0 || place.y < 0 || place.x >= float(blocks.x) || place.y >= float(blocks.y)) return -1;
+    return (plane * blocks.y + int(place.y)) * blocks.x + int(place.x);
+}
+
+/// The block that a sample lies in.
+int blockOf(const OcclusionLayout& layout, vec2 p, float slope, vec2 origin) {
+    const vec2 place = glm::floor((p - origin) * layout.invBlock);
+    const ivec2 block = ivec2(glm::clamp(place, vec2(0), vec2(layout.blockCount - 1)));
+    const float steps = glm::floor((slope - layout.slopeMin) / layout.spacing);
+    const int plane = int(glm::clamp(steps, 0.f, float(layout.planeCount - 1)));
+    return (plane * layout.blockCount.y + block.y) * layout.blockCount.x + block.x;
+}
+
+} // namespace
+
+OcclusionLayout chooseOcclusion(const GridLayout& grid, int samplesPerPixel) {
+    const float slopes = float(grid.bucketCount) / grid.invBucket;
+    const vec2 extent = vec2(grid.brickCount * grid.cellsPerBrick) / grid.invCell;
+    OcclusionLayout layout;
+    layout.blockCount = ivec2(extent / kBlockPx) + 1;
+    layout.invBlock = 1 / kBlockPx;
+    layout.slopeMin = grid.slopeMin;
+    layout.spacing = std::max({kLeastSpacingPx, grid.surfaceGap, slopes / float(kMaxPlanes - 1)});
+    layout.planeCount = int(slopes / layout.spacing) + 1;
+    layout.stride = uint(std::max(1, samplesPerPixel / kRaysPerPixel));
+    layout.raysPerBlock = float(samplesPerPixel) / float(layout.stride) * kBlockPx * kBlockPx;
+    return layout;
+}
+
+std::vector<uint> countStopped(const LightField& field, const GridLayout& grid,
+                               const OcclusionLayout& layout) {
+    std::vector<uint> stopped(stoppedBlocks(layout));
+    // Each thread has planes of its own, so that counts need no atomics.
+    parallelFor(0, std::size_t(layout.planeCount), 16, [&](std::size_t first, std::size_t last) {
+        for (const LightFieldSample& s : field.samples) {
+            if (!isFollowed(layout, vec2(s.x, s.y)) || !(glm::abs(s.slope) < kFarPx))
+                continue; // disabled ones are far
+            int plane = std::max(int(first), firstPlaneBehind(layout, s.slope, grid.surfaceGap));
+            for (; plane < int(last); ++plane) {
+                const vec2 p = vec2(s.x, s.y) - planeSlope(layout, plane) * vec2(s.u, s.v);
+                const int block = blockCrossed(layout, plane, p, grid.origin);
+                if (block >= 0) ++stopped[block];
+            }
+        }
+    });
+    return stopped;
+}
+
+float visibilityWeight(std::span<const uint> stopped, const GridLayout& grid, const OcclusionLayout& layout,
+                       vec2 p, float slope) {
+    const uint count = stopped[blockOf(layout, p, slope, grid.origin)];
+    return 1.f / glm::max(1.f - float(count) / layout.raysPerBlock, kLeastVisible);
+}
+
+} // namespace slant

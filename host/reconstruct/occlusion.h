@@ -1,0 +1,32 @@
+// How much of the lens each binned sample is visible from.
+//
+// A surface that lies partly behind another holds fewer samples a square pixel than the pattern does, though
+// it is as solid as any. So coverage is not judged by how many samples there are but by how many there are of
+// those rays that get so far: the rays that would cross a plane of the sample's slope near it, less those
+// that end before. Counted for planes of slope and blocks of pinhole position, over a few rays a pixel.
+#pragma once
+#include "reconstruct/grid.h"
+
+#include <span>
+#include <vector>
+
+namespace slant {
+
+/// Planes over the slopes of the grid: as many as tell its surfaces apart, up to a hundred or so.
+OcclusionLayout chooseOcclusion(const GridLayout& grid, int samplesPerPixel);
+
+/// Blocks of all planes.
+inline std::size_t stoppedBlocks(const OcclusionLayout& layout) {
+    return std::size_t(layout.planeCount) * layout.blockCount.y * layout.blockCount.x;
+}
+
+/// Rays that end before each block: [plane][row][column]. As bin_occlude.comp.
+std::vector<uint> countStopped(const LightField& field, const GridLayout& grid,
+                               const OcclusionLayout& layout);
+
+/// 1 / (part of the lens from which a sample at pinhole position p is visible), at most 1 / kLeastVisible. As
+/// lib/occlusion.glsl.
+float visibilityWeight(std::span<const uint> stopped, const GridLayout& grid, const OcclusionLayout& layout,
+                       vec2 p, float slope);
+
+} // namespace slant

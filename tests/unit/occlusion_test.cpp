@@ -1,0 +1,61 @@
+// The part of the lens from which samples are visible, where it is known: behind the edge of a half plane.
+#include "reconstruct/occlusion.h"
+#include "support/synthetic.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace slant {
+namespace {
+
+const Rect kFrame{0, 0, 96, 72};
+constexpr float kEdge = 48, kFront = -6, kBack = 6;
+
+/// A half plane in front, x < kEdge, and a plane behind it.
+LightField halfPlaneBeforePlane(int spp) {
+    const auto grey = [](vec2) { return vec3(0.5f); };
+    return synthetic::sample(
+        {{kFront, [](vec2 p) { return p.x < kEdge; }, grey}, {kBack, [](vec2) { return true; }, grey}},
+        kFrame, 15, spp, 3);
+}
+
+/// Part of the unit disc with u > cut.
+double discBeyond(double cut) {
+    if (cut >= 1) return 0;
+    if (cut <= -1) return 1;
+    return (std::acos(cut) - cut * std::sqrt(1 - cut * cut)) / M_PI;
+}
+
+class Occlusion : public testing::TestWithParam<int> {};
+
+TEST_P(Occlusion, partOfTheLensBehindAnEdge) {
+    const LightField field = halfPlaneBeforePlane(GetParam());
+    const GridLayout grid = chooseGrid(field, kFrame, 16);
+    const OcclusionLayout layout = chooseOcclusion(grid, GetParam());
+    const std::vector<uint> stopped = countStopped(field, grid, layout);
+    // A ray to p on the plane behind passes the front at p + (kBack - kFront) u.
+    for (float x = 36.5f; x < 60; x += 1) {
+        double mean = 0;
+        for (int y = 8; y < 64; ++y)
+            mean += 1 / visibilityWeight(stopped, grid, layout, vec2(x, y), kBack) / 56;
+        // Blocks are 4 px wide and planes up to a pixel from the sample's own slope.
+        const double nearer = discBeyond((kEdge - x + 4.5) / (kBack - kFront)),
+                     further = discBeyond((kEdge - x - 4.5) / (kBack - kFront));
+        EXPECT_GT(mean, std::max<double>(nearer, kLeastVisible) - 0.03) << x;
+        EXPECT_LT(mean, std::max<double>(further, kLeastVisible) + 0.03) << x;
+    }
+}
+
+TEST_P(Occlusion, nothingHidesTheFront) {
+    const LightField field = halfPlaneBeforePlane(GetParam());
+    const GridLayout grid = chooseGrid(field, kFrame, 16);
+    const OcclusionLayout layout = chooseOcclusion(grid, GetParam());
+    const std::vector<uint> stopped = countStopped(field, grid, layout);
+    for (float x = 0; x < 48; x += 1)
+        EXPECT_EQ(visibilityWeight(stopped, grid, layout, vec2(x, 30), kFront), 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Spp, Occlusion, testing::Values(1, 4, 16));
+
+} // namespace
+} // namespace slant
