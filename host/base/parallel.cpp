@@ -12,16 +12,30 @@ namespace {
 // oneTBB orders the pieces of a loop after what was before it and before what comes after it. ThreadSanitizer
 // cannot see into that library: this file is not instrumented (cmake/Compile.cmake), and says so instead.
 #ifdef SLANT_THREAD_SANITIZER
-void release(void* loop) {
-    __tsan_release(loop);
+void release(void* address) {
+    __tsan_release(address);
 }
-void acquire(void* loop) {
-    __tsan_acquire(loop);
+void acquire(void* address) {
+    __tsan_acquire(address);
 }
 #else
 void release(void*) {}
 void acquire(void*) {}
 #endif
+
+/// Lives as long as a loop; a Piece as long as one of its pieces. Pieces are not ordered among themselves.
+struct LoopOrder {
+    LoopOrder() { release(&begun); }
+    ~LoopOrder() { acquire(&ended); }
+
+    struct Piece {
+        explicit Piece(LoopOrder& order) : loop(order) { acquire(&order.begun); }
+        ~Piece() { release(&loop.ended); }
+        LoopOrder& loop;
+    };
+
+    char begun = 0, ended = 0;
+};
 
 } // namespace
 
@@ -44,15 +58,12 @@ int threadCount() {
 void parallelFor(std::size_t begin, std::size_t end, std::size_t grain,
                  const std::function<void(std::size_t, std::size_t)>& body) {
     if (begin >= end) return;
-    char begun = 0, ended = 0; // two, for the pieces are not ordered among themselves
-    release(&begun);
+    LoopOrder order;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, grain),
                       [&](const tbb::blocked_range<std::size_t>& range) {
-                          acquire(&begun);
+                          const LoopOrder::Piece piece(order);
                           body(range.begin(), range.end());
-                          release(&ended);
                       });
-    acquire(&ended);
 }
 
 } // namespace slant
