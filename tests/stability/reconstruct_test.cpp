@@ -96,5 +96,28 @@ TEST(ReconstructStability, stripBehindABlurredEdgeIsSolid) {
     }
 }
 
+/// Bright discs, some smaller than the distance of the samples, neither grow nor fade.
+TEST(ReconstructStability, smallDiscsKeepTheirBrightness) {
+    const auto colour = [](float value) { return [value](vec2) { return vec3(value); }; };
+    for (const float radius : {0.4f, 0.8f, 1.6f, 3.f})
+        for (const float slope : {-4.f, 0.2f}) {
+            const auto inside = [radius](vec2 p) {
+                return glm::length(p - (glm::floor(p / 12.f) + 0.5f) * 12.f) < radius;
+            };
+            const std::vector<synthetic::Layer> layers = {{slope, inside, colour(1)},
+                                                          {9, [](vec2) { return true; }, colour(0)}};
+            for (const int spp : {2, 4, 16}) {
+                double got = 0, wanted = 0; // of the same samples, so that their noise does not count
+                for (const std::uint32_t seed : {31, 32}) {
+                    const LightField field = synthetic::sample(layers, kFrame, 15, spp, seed);
+                    got += meanOf(reconstruct(field, Method::full, 32));
+                    wanted += meanOf(reconstruct(field, Method::box));
+                }
+                EXPECT_NEAR(got / wanted, 1, 0.06)
+                    << "radius " << radius << ", slope " << slope << ", " << spp;
+            }
+        }
+}
+
 } // namespace
 } // namespace slant
