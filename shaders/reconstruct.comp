@@ -31,6 +31,12 @@ void visit(Candidate candidate, inout Sweep sweep) {
     sweep.slopeMax = max(sweep.slopeMax, candidate.slope);
     addPoint(sweep.hull, candidate.offset);
 }
+
+bool isSolid(Sweep sweep) { return sweep.weightSum >= kSolidInner * kFullWeight && surrounds(sweep.hull); }
+
+bool hides(Sweep sweep, Brick brick) {
+    return brick.slopeMin > sweep.slopeMax + sweep.surfaceGap && isSolid(sweep);
+}
 #include "lib/search.glsl"
 
 void main() {
@@ -64,8 +70,7 @@ void main() {
         imageStore(overflowList, int(imageAtomicAdd(counters, int(kOverflowCount), 1u)), uvec4(slot));
         return;
     }
-    const bool taken =
-        sweep.running ? sweep.weightSum > 0.0 : surrounds(sweep.hull) && sweep.weightSum >= kSolidInner * kFullWeight;
+    const bool taken = sweep.running ? sweep.weightSum > 0.0 : isSolid(sweep);
     if (taken)
         imageStore(dense, int(slot), vec4(sweep.sum / sweep.weightSum, o.positionCode));
     else

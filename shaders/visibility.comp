@@ -30,6 +30,10 @@ void visit(Candidate candidate, inout Sweep sweep) {
     }
     addSample(sweep.surface, candidate, radianceAt(candidate.record), sweep.baseRadius);
 }
+
+bool hides(Sweep sweep, Brick brick) {
+    return brick.slopeMin > sweep.surface.slopeMax + sweep.surfaceGap && isSolid(sweep.surface, sweep.fullWeight);
+}
 #include "lib/search.glsl"
 
 void main() {

@@ -23,10 +23,12 @@ ivec2 cellAt(const GridLayout& grid, vec2 place) {
     return ivec2(glm::clamp(glm::floor(place), vec2(0), vec2(cells - 1)));
 }
 
-/// Calls visit for the samples that reproject to within `radius` of the output, until it returns false. They
-/// come in the order of their bricks: front to back, up to the width of a bucket. Returns loop steps.
-template <typename Visit>
-int forEachCandidate(const SearchContext& context, const Output& output, float radius, Visit&& visit) {
+/// Calls visit for the samples that reproject to within `radius` of the output, until it returns false or
+/// hides(brick) says that what was met so far hides a brick and all that follow. They come in the order of
+/// their bricks: front to back, up to the width of a bucket. Returns loop steps.
+template <typename Visit, typename Hides>
+int forEachCandidate(const SearchContext& context, const Output& output, float radius, Visit&& visit,
+                     Hides&& hides) {
     const GridLayout& grid = context.bins.grid;
     const int side = grid.cellsPerBrick;
     // In cells: where the output lies, how far its window moves with slope, and its half width.
@@ -39,6 +41,7 @@ int forEachCandidate(const SearchContext& context, const Output& output, float r
         const ivec2 first = glm::max(cellAt(grid, center - glm::max(a, b) - reach), firstCell(brick));
         const ivec2 last = glm::min(cellAt(grid, center - glm::min(a, b) + reach), lastCell(brick));
         ++iterations;
+        if (hides(brick)) return iterations;
         if (first.x > last.x || first.y > last.y) continue;
         const ivec2 corner = first / side * side;
         for (int row = first.y; row <= last.y; ++row) {
@@ -73,7 +76,8 @@ Reconstructed reconstructNearest(const SearchContext& context, const Output& out
     Hull hull;
     bool another = false; ///< there is a surface behind
     Reconstructed result;
-    result.iterations = forEachCandidate(context, output, grid.radiusPx, [&](const Candidate& candidate) {
+    const auto isSolid = [&] { return weightSum >= kSolidInner * kFullWeight && surrounds(hull); };
+    const auto visit = [&](const Candidate& candidate) {
         another = weightSum > 0 && candidate.slope > slopeMax + grid.surfaceGap;
         if (another) return false;
         const float weight = candidate.weight * (1 - glm::sqrt(candidate.distance2) * invRadius);
@@ -82,8 +86,12 @@ Reconstructed reconstructNearest(const SearchContext& context, const Output& out
         slopeMax = glm::max(slopeMax, candidate.slope);
         addPoint(hull, candidate.offset);
         return true;
-    });
-    const bool taken = another ? surrounds(hull) && weightSum >= kSolidInner * kFullWeight : weightSum > 0;
+    };
+    const auto hides = [&](const Brick& brick) {
+        return brick.slopeMin > slopeMax + grid.surfaceGap && isSolid();
+    };
+    result.iterations = forEachCandidate(context, output, grid.radiusPx, visit, hides);
+    const bool taken = another ? isSolid() : weightSum > 0;
     result.outcome = taken ? Outcome::resolved : Outcome::needsVisibility;
     if (taken) result.rgb = sum / weightSum;
     return result;
@@ -147,7 +155,7 @@ Reconstructed resolveVisibility(const SearchContext& context, const Output& outp
     Surface surface;
     Layers layers;
     Reconstructed result;
-    result.iterations = forEachCandidate(context, output, 2 * baseRadius, [&](const Candidate& candidate) {
+    const auto visit = [&](const Candidate& candidate) {
         if (surface.count > 0 && candidate.slope > surface.slopeMax + grid.surfaceGap) {
             addSurface(layers, surface, fullWeight);
             surface = Surface{};
@@ -155,7 +163,11 @@ Reconstructed resolveVisibility(const SearchContext& context, const Output& outp
         }
         addSample(surface, candidate, radianceOf(context, candidate), baseRadius);
         return true;
-    });
+    };
+    const auto hides = [&](const Brick& brick) {
+        return brick.slopeMin > surface.slopeMax + grid.surfaceGap && isSolid(surface, fullWeight);
+    };
+    result.iterations = forEachCandidate(context, output, 2 * baseRadius, visit, hides);
     if (surface.count > 0) layers.rgb += layers.transmittance * meanOf(surface);
     if (surface.count > 0 || !(layers.transmittance > 0)) result.outcome = Outcome::resolved;
     result.rgb = layers.rgb;

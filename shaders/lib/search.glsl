@@ -1,8 +1,9 @@
 // One output against the bins. As host/reconstruct/search.cpp, where it is explained.
 //
 // Needs, declared before the include: positionAt(uint) and cellStartAt(uint), which read the bins;
-// listedBrick(uint) and listedCellBase(uint), which read the lists; a struct Sweep with a member `bool running`; and visit(Candidate, inout Sweep), called
-// for each candidate until it clears `running`.
+// listedBrick(uint) and listedCellBase(uint), which read the lists; a struct Sweep with a member `bool running`;
+// visit(Candidate, inout Sweep), called for each candidate until it clears `running`; and hides(Sweep, Brick),
+// whether what was met so far hides a brick and all that follow.
 #ifndef SLANT_LIB_SEARCH_GLSL
 #define SLANT_LIB_SEARCH_GLSL
 #include "lib/grid.glsl"
@@ -22,6 +23,7 @@ bool forEachCandidate(GridLayout grid, Output o, float radius, uint listBegin, u
         const ivec2 last = min(cellAt(grid, center - min(a, b) + reach), lastCell(brick));
         ++iterations;
         if (iterations > kMaxLoopIterations) return false;
+        if (hides(sweep, brick)) return true;
         if (first.x > last.x || first.y > last.y) continue;
         const uint cellBase = listedCellBase(entry);
         for (int row = first.y; row <= last.y && sweep.running; ++row) {
