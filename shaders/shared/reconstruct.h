@@ -18,8 +18,8 @@ SLANT_SHARED_CONSTANT float kSearchRadius = 1.7f;
 /// kSearchRadius^2.
 SLANT_SHARED_CONSTANT float kFullWeight = 3.0264205f;
 /// Shares of that from which a surface that surrounds the output is solid, by its samples within R and within
-/// 2 R. Lower ones let small bright things grow, higher ones let them fade: `lights` drifts by +0.6 % at 0.6 and
-/// 0.45, by -0.7 % at 0.75 and 0.55, by -3.4 % at 0.85 and 0.7 (2 samples a pixel).
+/// 2 R. Lower ones let small bright things grow, higher ones let them fade: `lights` drifts by +0.6 % at 0.6
+/// and 0.45, by -0.7 % at 0.75 and 0.55, by -3.4 % at 0.85 and 0.7 (2 samples a pixel).
 SLANT_SHARED_CONSTANT float kSolidInner = 0.68f;
 SLANT_SHARED_CONSTANT float kSolidOuter = 0.5f;
 /// Positions of outputs inside their pixel are multiples of 1 / kSubpixels (plus half a step).
@@ -75,8 +75,8 @@ SLANT_SHARED_CONSTANT uint kHoleCount = 1u;       // outputs that found nothing
 SLANT_SHARED_CONSTANT uint kOverflowCount = 2u;   // outputs over kMaxLoopIterations
 SLANT_SHARED_CONSTANT uint kCounters = 4u;
 
-/// Planes of constant slope, cut into square blocks, in each of which the rays are counted that end before they
-/// reach it.
+/// Planes of constant slope, cut into square blocks, in each of which the rays are counted that end before
+/// they reach it.
 struct OcclusionLayout {
     ivec2 blockCount;   // along x and y, from the grid's origin
     float invBlock;     // 1 / (side of a block in pixels)
