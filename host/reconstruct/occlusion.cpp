@@ -9,9 +9,11 @@
 namespace slant {
 namespace {
 
-/// Finer ones give the same pictures: blocks of 1 or 2 px, planes closer to one another.
-constexpr float kBlockPx = 4, kLeastSpacingPx = 1;
+/// Blocks of 1 or 2 px and closer planes lower the error by a few percent only.
+constexpr float kLeastBlockPx = 4, kLeastSpacingPx = 1;
 constexpr int kMaxPlanes = 128;
+/// Of all planes, 128 MiB; larger pictures have larger blocks.
+constexpr double kMaxBlocks = 1 << 25;
 constexpr int kRaysPerPixel = 8;
 
 /// One ray in `stride`, chosen by its place, so that the order of samples does not matter.
@@ -52,13 +54,16 @@ OcclusionLayout chooseOcclusion(const GridLayout& grid, int samplesPerPixel) {
     const float slopes = float(grid.bucketCount) / grid.invBucket;
     const vec2 extent = vec2(grid.brickCount * grid.cellsPerBrick) / grid.invCell;
     OcclusionLayout layout;
-    layout.blockCount = ivec2(extent / kBlockPx) + 1;
-    layout.invBlock = 1 / kBlockPx;
     layout.slopeMin = grid.slopeMin;
     layout.spacing = std::max({kLeastSpacingPx, grid.surfaceGap, slopes / float(kMaxPlanes - 1)});
     layout.planeCount = int(slopes / layout.spacing) + 1;
     layout.stride = uint(std::max(1, samplesPerPixel / kRaysPerPixel));
-    layout.raysPerBlock = float(samplesPerPixel) / float(layout.stride) * kBlockPx * kBlockPx;
+    float blockPx = kLeastBlockPx;
+    const auto blocks = [&] { return glm::floor(extent / blockPx) + 1.f; };
+    while (double(layout.planeCount) * blocks().x * blocks().y > kMaxBlocks) blockPx *= 2;
+    layout.blockCount = ivec2(blocks());
+    layout.invBlock = 1 / blockPx;
+    layout.raysPerBlock = float(samplesPerPixel) / float(layout.stride) * blockPx * blockPx;
     return layout;
 }
 

@@ -55,6 +55,23 @@ TEST_P(Occlusion, nothingHidesTheFront) {
         EXPECT_EQ(visibilityWeight(stopped, grid, layout, vec2(x, 30), kFront), 1);
 }
 
+/// A picture of any size and blur has no more blocks than a device's buffer can hold.
+TEST(OcclusionLayout, blocksStayBounded) {
+    GridLayout grid{};
+    grid.brickCount = ivec2(4000, 3000);
+    grid.cellsPerBrick = 8;
+    grid.invCell = 1;
+    grid.bucketCount = 4000;
+    grid.invBucket = 2;
+    grid.surfaceGap = 0.5f;
+    const OcclusionLayout layout = chooseOcclusion(grid, 8);
+    EXPECT_LE(stoppedBlocks(layout), std::size_t(1) << 25);
+    const vec2 covered = vec2(layout.blockCount) / layout.invBlock;
+    EXPECT_GE(covered.x, 32000);
+    EXPECT_GE(covered.y, 24000);
+    EXPECT_NEAR(layout.raysPerBlock, 8 / (layout.invBlock * layout.invBlock), 1);
+}
+
 INSTANTIATE_TEST_SUITE_P(Spp, Occlusion, testing::Values(1, 4, 16));
 
 } // namespace
