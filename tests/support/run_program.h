@@ -39,4 +39,14 @@ inline ProgramResult runSlant(std::vector<std::string> arguments) {
     return runWords(arguments);
 }
 
+/// Runs words and sends SIGINT once the program catches it (bit 1 of the mask) and has had time to begin.
+inline ProgramResult runAndInterrupt(const std::vector<std::string>& words) {
+    const char* script = "\"$@\" & for i in $(seq 3000); do "
+                         "grep -q 'SigCgt:.*[2367abef]$' /proc/$!/status && break; sleep 0.01; done; "
+                         "sleep 0.3; kill -INT $!; wait $!";
+    std::vector<std::string> all = {"sh", "-c", script, "sh"};
+    all.insert(all.end(), words.begin(), words.end());
+    return runWords(all);
+}
+
 } // namespace slant::test
