@@ -61,7 +61,7 @@ void main() {
 
     const int index = push.firstOutput + int(k);
     const Output o = outputAt(outputs.regionOrigin + position, index, texelFetch(pattern, index), push.lensCells,
-                              outputs.seed);
+                              push.lensScale, outputs.seed);
     Sweep sweep = Sweep(true, 1.0 / grid.radiusPx, grid.surfaceGap, vec3(0.0), 0.0, -kInfinity, noHull());
     const bool complete = forEachCandidate(grid, o, grid.radiusPx, texelFetch(listStart, int(list)).x,
                                            texelFetch(listStart, int(list) + 1).x, sweep);

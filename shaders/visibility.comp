@@ -48,7 +48,7 @@ void main() {
     const ivec2 tile = position / kTileSize;
     const int index = push.firstOutput + int(k);
     const Output o = outputAt(outputs.regionOrigin + position, index, texelFetch(pattern, index), push.lensCells,
-                              outputs.seed);
+                              push.lensScale, outputs.seed);
     const int list =
         ((int(k) >> push.groupBits) * outputs.tileCount.y + tile.y) * outputs.tileCount.x + tile.x;
     const float widening = push.radiusPx / push.grid.radiusPx;

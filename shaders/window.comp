@@ -59,7 +59,8 @@ void main() {
     const uint k = slot / (size.x * size.y), place = slot - k * (size.x * size.y);
     const ivec2 pixel = outputs.regionOrigin + ivec2(place % size.x, place / size.x);
     const int index = push.firstOutput + int(k);
-    const Output o = outputAt(pixel, index, texelFetch(pattern, index), push.lensCells, outputs.seed);
+    const Output o = outputAt(pixel, index, texelFetch(pattern, index), push.lensCells,
+                              push.lensScale, outputs.seed);
 
     float slopes[kMaxWindowCandidates];
     uint records[kMaxWindowCandidates];

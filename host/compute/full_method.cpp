@@ -14,7 +14,8 @@ class FullMethod {
 public:
     explicit FullMethod(ComputeRun& run)
         : run_(run), bins_(run.bin()),
-          pattern_(makeOutputPattern(run.options.outputsPerPixel, largestSlope(bins_.grid))),
+          pattern_(makeOutputPattern(run.options.outputsPerPixel, largestSlope(bins_.grid),
+                                     run.options.lensScale)),
           listPasses_(run.device, pattern_), outputPasses_(run.device, pattern_) {}
 
     void fill() {
@@ -30,6 +31,7 @@ public:
                 push.grid = bins_.grid;
                 push.outputs = layoutOf(band, pattern_, run_.options.seed);
                 push.lensCells = pattern_.lensCells;
+                push.lensScale = pattern_.lensScale;
                 push.firstGroup = uint(group);
                 push.groupCount = uint(std::min(plan.groupsPerChunk, int(pattern_.groups.size()) - group));
                 push.firstOutput = group * groupSize;

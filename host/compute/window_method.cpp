@@ -19,8 +19,8 @@ class WindowMethod {
 public:
     explicit WindowMethod(ComputeRun& run)
         : run_(run), samples_(windowSamples(run.field)), search_(windowSearch(run.field, run.options.window)),
-          pattern_(makeOutputPattern(run.options.outputsPerPixel, 0)), pass_(run.device, "window"),
-          positions_(uploaded(run.device, samples_.positions)),
+          pattern_(makeOutputPattern(run.options.outputsPerPixel, 0, run.options.lensScale)),
+          pass_(run.device, "window"), positions_(uploaded(run.device, samples_.positions)),
           radiances_(uploaded(run.device, samples_.radiances)),
           entries_(run.device, TexelFormat::rgba32ui, pattern_.entries.size()),
           counters_(run.device, TexelFormat::r32ui, kCounters),
@@ -55,6 +55,7 @@ private:
             push.search = search_;
             push.outputs = layoutOf(band, pattern_, run_.options.seed);
             push.lensCells = pattern_.lensCells;
+            push.lensScale = pattern_.lensScale;
             push.firstOutput = firstGroup << pattern_.groupBits;
             push.count = uint(samples);
             const std::vector<uint> overflowed = look(push);

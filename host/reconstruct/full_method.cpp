@@ -9,7 +9,8 @@ namespace slant {
 
 void fullMethod(CpuRun& run) {
     const Bins bins = run.bin();
-    const OutputPattern pattern = makeOutputPattern(run.options.outputsPerPixel, largestSlope(bins.grid));
+    const OutputPattern pattern =
+        makeOutputPattern(run.options.outputsPerPixel, largestSlope(bins.grid), run.options.lensScale);
     const Plan plan = planOutputs(run.field.frame, run.film.filter(), pattern, maxDenseSamples(run.options));
 
     run.monitor.beginStage("reconstruct", plan.outputs, "outputs");

@@ -40,6 +40,7 @@ struct WindowOptions {
 struct ReconstructOptions {
     Method method = Method::full;
     int outputsPerPixel = 128; ///< a power of two; `box` has none
+    float lensScale = 1;       ///< radius of the aperture over that of the traced one; 0 = pinhole; not `box`
     PixelFilter filter;
     WindowOptions window;
     std::uint64_t seed = 0;

@@ -77,7 +77,8 @@ LensBox groupBox(const OutputPattern& pattern, std::size_t first, std::size_t la
         low = glm::min(low, corner);
         high = glm::max(high, corner + 2.f / vec2(pattern.lensCells));
     }
-    return lensBox(low, high);
+    const LensBox box = lensBox(low, high);
+    return {pattern.lensScale * box.min, pattern.lensScale * box.max};
 }
 
 /// The lens group of 2^bits of M outputs is about 2 sqrt(2^bits / M) lens radii wide; what it sees spreads by
@@ -118,7 +119,7 @@ vec2 concentricDisc(vec2 square) {
     return wide ? vec2(r * cosine, r * sine) : vec2(r * sine, r * cosine);
 }
 
-OutputPattern makeOutputPattern(int outputsPerPixel, float slopePx) {
+OutputPattern makeOutputPattern(int outputsPerPixel, float slopePx, float lensScale) {
     if (!isOutputCount(outputsPerPixel))
         throw Error(ErrorCode::usage,
                     fmt::format("outputs a pixel must be a power of two from 1 to {}, not {}",
@@ -130,6 +131,7 @@ OutputPattern makeOutputPattern(int outputsPerPixel, float slopePx) {
     const int bits = std::countr_zero(unsigned(outputsPerPixel));
     const int columnBits = (bits + 1) / 2, rowBits = bits / 2;
     OutputPattern pattern;
+    pattern.lensScale = lensScale;
     pattern.lensCells = {1 << columnBits, 1 << rowBits};
     for (uint i = 0; i < uint(outputsPerPixel); ++i) {
         const uint column = columnBits ? sobol(lensX, i) >> (32 - columnBits) : 0;
@@ -140,14 +142,15 @@ OutputPattern makeOutputPattern(int outputsPerPixel, float slopePx) {
     std::sort(pattern.entries.begin(), pattern.entries.end(), [](const auto& left, const auto& right) {
         return morton(left.w & 0xffffu, left.w >> 16) < morton(right.w & 0xffffu, right.w >> 16);
     });
-    pattern.groupBits = groupBitsFor(outputsPerPixel, slopePx);
+    pattern.groupBits = groupBitsFor(outputsPerPixel, lensScale * slopePx);
     const auto size = std::size_t(pattern.groupSize());
     for (std::size_t first = 0; first < pattern.entries.size(); first += size)
         pattern.groups.push_back(groupBox(pattern, first, first + size));
     return pattern;
 }
 
-Output outputAt(ivec2 pixel, int output, const glm::uvec4& entry, ivec2 lensCells, uint seed) {
+Output outputAt(ivec2 pixel, int output, const glm::uvec4& entry, ivec2 lensCells, float lensScale,
+                uint seed) {
     const uint pixelSeed = hash(uint(pixel.x) + hash(uint(pixel.y) + hash(seed)));
     const uint qx = owenScramble(entry.x, hash(pixelSeed ^ 0xa511e9b3u)) >> 20;
     const uint qy = owenScramble(entry.y, hash(pixelSeed ^ 0x63d83595u)) >> 20;
@@ -157,7 +160,7 @@ Output outputAt(ivec2 pixel, int output, const glm::uvec4& entry, ivec2 lensCell
                       (vec2(float(jitter & 0xffffu), float(jitter >> 16)) + 0.5f) * (1.f / 65536.f);
     Output o;
     o.xy = vec2(pixel) + (vec2(float(qx), float(qy)) + 0.5f) * (1.f / float(kSubpixels));
-    o.uv = concentricDisc(cell * (2.f / vec2(lensCells)) - 1.f);
+    o.uv = lensScale * concentricDisc(cell * (2.f / vec2(lensCells)) - 1.f);
     o.t = float(qt) * (1.f / 16777216.f);
     o.positionCode = float(qx * uint(kSubpixels) + qy);
     return o;

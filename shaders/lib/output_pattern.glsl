@@ -38,7 +38,7 @@ vec2 concentricDisc(vec2 square) {
     return wide ? vec2(r * cosine, r * sine) : vec2(r * sine, r * cosine);
 }
 
-Output outputAt(ivec2 pixel, int index, uvec4 entry, ivec2 lensCells, uint seed) {
+Output outputAt(ivec2 pixel, int index, uvec4 entry, ivec2 lensCells, float lensScale, uint seed) {
     const uint pixelSeed = hash(uint(pixel.x) + hash(uint(pixel.y) + hash(seed)));
     const uint qx = owenScramble(entry.x, hash(pixelSeed ^ 0xa511e9b3u)) >> 20;
     const uint qy = owenScramble(entry.y, hash(pixelSeed ^ 0x63d83595u)) >> 20;
@@ -48,7 +48,7 @@ Output outputAt(ivec2 pixel, int index, uvec4 entry, ivec2 lensCells, uint seed)
                       (vec2(float(jitter & 0xffffu), float(jitter >> 16)) + 0.5) * (1.0 / 65536.0);
     Output o;
     o.xy = vec2(pixel) + (vec2(float(qx), float(qy)) + 0.5) * (1.0 / float(kSubpixels));
-    o.uv = concentricDisc(cell * (2.0 / vec2(lensCells)) - 1.0);
+    o.uv = lensScale * concentricDisc(cell * (2.0 / vec2(lensCells)) - 1.0);
     o.t = float(qt) * (1.0 / 16777216.0);
     o.positionCode = float(qx * uint(kSubpixels) + qy);
     return o;

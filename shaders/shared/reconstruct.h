@@ -103,6 +103,7 @@ struct OutputPush {
     GridLayout grid;
     OutputLayout outputs;
     ivec2 lensCells;
+    float lensScale; // radius of the disc that outputs look through, in lens radii
     int firstOutput; // of the chunk
     uint count;      // invocations
     uint firstGroup; // lens groups of the chunk

@@ -35,6 +35,7 @@ struct WindowPush {
     WindowSearch search;
     OutputLayout outputs;
     ivec2 lensCells;
+    float lensScale; // radius of the disc that outputs look through, in lens radii
     int firstOutput; // of the chunk
     uint count;      // invocations
 };

@@ -88,6 +88,16 @@ TEST_F(ReconstructParity, everyNumberOfOutputs) {
     }
 }
 
+TEST_F(ReconstructParity, everyAperture) {
+    const LightField field = makeField({0, 0, 31, 23}, 3);
+    for (const float lensScale : {0.f, 0.37f, 1.5f})
+        for (const Method method : {Method::window, Method::full}) {
+            ReconstructOptions options = optionsOf(method);
+            options.lensScale = lensScale;
+            EXPECT_EQ(runBoth(field, options).report.emptyPixels, 0u);
+        }
+}
+
 TEST_F(ReconstructParity, filmDoesNotDependOnMemory) {
     const LightField field = makeField({0, 0, 61, 43}, 8);
     for (const Method method : kMethods) {

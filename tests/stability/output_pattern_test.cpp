@@ -33,7 +33,8 @@ glm::dvec2 exactSquare(glm::dvec2 disc) {
 std::vector<Output> outputsOf(const OutputPattern& pattern, ivec2 pixel, uint seed = 0) {
     std::vector<Output> outputs;
     for (int i = 0; i < pattern.outputsPerPixel(); ++i)
-        outputs.push_back(outputAt(pixel, i, pattern.entries[std::size_t(i)], pattern.lensCells, seed));
+        outputs.push_back(
+            outputAt(pixel, i, pattern.entries[std::size_t(i)], pattern.lensCells, pattern.lensScale, seed));
     return outputs;
 }
 
@@ -113,7 +114,8 @@ TEST(OutputPattern, pixelsAndSeedsDiffer) {
 TEST(OutputPattern, groupsHoldTheirOutputs) {
     for (const int count : {1, 4, 8, 64, 512})
         for (const float slopePx : {0.f, 3.f, 30.f, 1e4f, 1e30f}) {
-            const OutputPattern pattern = makeOutputPattern(count, slopePx);
+            const float lensScale = slopePx == 3.f ? 0.3f : slopePx == 30.f ? 0.f : 1.f;
+            const OutputPattern pattern = makeOutputPattern(count, slopePx, lensScale);
             ASSERT_EQ(int(pattern.groups.size()) * pattern.groupSize(), count);
             for (int x = 0; x < 50; ++x) {
                 const std::vector<Output> outputs = outputsOf(pattern, {x, 3 * x});

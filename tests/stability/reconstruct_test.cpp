@@ -12,10 +12,11 @@ namespace {
 
 const std::vector<Method> kMethods = {Method::box, Method::full};
 
-Image reconstruct(const LightField& field, Method method, int outputs = 32) {
+Image reconstruct(const LightField& field, Method method, int outputs = 32, float lensScale = 1) {
     ReconstructOptions options;
     options.method = method;
     options.outputsPerPixel = outputs;
+    options.lensScale = lensScale;
     CpuReconstructor cpu;
     return test::run(cpu, field, options).image;
 }
@@ -73,6 +74,19 @@ TEST(ReconstructStability, fourSamplesReconstructedBeatSixteenFiltered) {
     const double full = compare(reconstruct(discs(kFrame, 4, 1), Method::full, 64), reference).mse;
     const double box = compare(reconstruct(discs(kFrame, 16, 2), Method::box), reference).mse;
     EXPECT_LT(full, 0.5 * box);
+}
+
+/// The truth is the field of a lens that much smaller.
+TEST(ReconstructStability, smallerAperturesComeFromTheSameSamples) {
+    const LightField field = discs(kFrame, 16, 1);
+    for (const float lensScale : {0.5f, 0.f}) {
+        std::vector<synthetic::Layer> layers = synthetic::discsOverChecks();
+        for (synthetic::Layer& layer : layers) layer.slope *= lensScale;
+        const LightField smaller = synthetic::sample(layers, kFrame, 15, 400, 77);
+        const Image truth = reconstruct(smaller, Method::box);
+        const double narrow = compare(reconstruct(field, Method::full, 64, lensScale), truth).mse;
+        EXPECT_LT(narrow, 0.1 * compare(reconstruct(field, Method::full, 64), truth).mse) << lensScale;
+    }
 }
 
 /// A bright strip that is seen past the blurred edge of a dark thing in front: solid, though most of its

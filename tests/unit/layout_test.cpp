@@ -38,14 +38,14 @@ const Layout kLayouts[] = {
            MEMBER(BinPush, regionMax), MEMBER(BinPush, marginPx), MEMBER(BinPush, firstSample),
            MEMBER(BinPush, count), MEMBER(BinPush, brickTotal)),
     STRUCT(OutputPush, MEMBER(OutputPush, grid), MEMBER(OutputPush, outputs), MEMBER(OutputPush, lensCells),
-           MEMBER(OutputPush, firstOutput), MEMBER(OutputPush, count), MEMBER(OutputPush, firstGroup),
-           MEMBER(OutputPush, groupCount), MEMBER(OutputPush, brickTotal), MEMBER(OutputPush, radiusPx),
-           MEMBER(OutputPush, groupBits)),
+           MEMBER(OutputPush, lensScale), MEMBER(OutputPush, firstOutput), MEMBER(OutputPush, count),
+           MEMBER(OutputPush, firstGroup), MEMBER(OutputPush, groupCount), MEMBER(OutputPush, brickTotal),
+           MEMBER(OutputPush, radiusPx), MEMBER(OutputPush, groupBits)),
     STRUCT(FilterPush, MEMBER(FilterPush, regionSize), MEMBER(FilterPush, reach),
            MEMBER(FilterPush, tableLength), MEMBER(FilterPush, filmSize), MEMBER(FilterPush, firstRow),
            MEMBER(FilterPush, rowCount), MEMBER(FilterPush, firstPlane), MEMBER(FilterPush, planeCount)),
     STRUCT(WindowPush, MEMBER(WindowPush, search), MEMBER(WindowPush, outputs), MEMBER(WindowPush, lensCells),
-           MEMBER(WindowPush, firstOutput), MEMBER(WindowPush, count)),
+           MEMBER(WindowPush, lensScale), MEMBER(WindowPush, firstOutput), MEMBER(WindowPush, count)),
     STRUCT(LowerBoundPush, MEMBER(LowerBoundPush, keyCount), MEMBER(LowerBoundPush, count)),
 };
 
