@@ -1,0 +1,120 @@
+#include "commands/reconstruction.h"
+
+#include "reconstruct/cpu_reconstructor.h"
+#include "reconstruct/stage_compare.h"
+#include "reconstruct/window.h"
+
+#include <bit>
+
+namespace slant::commands {
+namespace {
+
+std::string describe(const StageDifference& d, const std::vector<uint>& expected) {
+    if (d.got.empty())
+        return fmt::format("stage {} '{}' has {} words on the CPU and {} on the device", d.stage, d.name,
+                           d.expectedWords, d.gotWords);
+    std::size_t i = 0;
+    while (i + 1 < d.got.size() && i < expected.size() && expected[i] == d.got[i]) ++i;
+    return fmt::format(
+        "stage {} '{}' differs first at word {} of {}: cpu {:#010x} ({:.9g}), device {:#010x} ({:.9g})",
+        d.stage, d.name, d.firstWord + i, d.gotWords, expected.at(i), std::bit_cast<float>(expected[i]),
+        d.got[i], std::bit_cast<float>(d.got[i]));
+}
+
+/// Runs the CPU beside the backend; Error(outOfBounds) at the first stage that differs.
+Image reconstructAndCompare(Backend& backend, const LightField& field, const ReconstructOptions& options,
+                            Monitor& monitor, ReconstructReport& report) {
+    CpuReconstructor cpu;
+    ReconstructReport cpuReport;
+    StageRecorder expected;
+    cpu.reconstruct(field, options, monitor, cpuReport, &expected);
+    StageComparer comparer(expected);
+    Image image = backend.reconstructor->reconstruct(field, options, monitor, report, &comparer);
+    if (const auto difference = comparer.difference()) {
+        StageReader reader(difference->stage, difference->firstWord, difference->got.size());
+        if (!difference->got.empty()) cpu.reconstruct(field, options, monitor, cpuReport, &reader);
+        throw Error(ErrorCode::outOfBounds, describe(*difference, reader.words()));
+    }
+    fmt::print(
+        "{} stages, {} words: {} and cpu agree to the bit\n", expected.stages().size(),
+        [&] {
+            std::size_t words = 0;
+            for (const auto& stage : expected.stages()) words += stage.words;
+            return words;
+        }(),
+        backend.name);
+    return image;
+}
+
+} // namespace
+
+void addCompareOption(CLI::App& command, bool& compareWithCpu) {
+    const auto compare = [&compareWithCpu](const std::string& with) {
+        if (with != "cpu") throw CLI::ValidationError("--compare", fmt::format("'{}' is not cpu", with));
+        compareWithCpu = true;
+    };
+    command
+        .add_option_function<std::string>("--compare", compare,
+                                          "also run on the CPU, and stop at the first stage that differs")
+        ->type_name("cpu");
+}
+
+ReconstructOptions reconstructOptions(const CommonOptions& common, const PixelFilter& filter,
+                                      const Backend& backend) {
+    ReconstructOptions options;
+    options.method = common.method;
+    options.window = common.window;
+    options.outputsPerPixel = common.outSpp;
+    options.filter = filter;
+    options.seed = common.seed;
+    options.memoryBytes = common.memoryBytes;
+    // So that the CPU cuts a picture into the chunks that the device can hold.
+    if (backend.device)
+        options.memoryBytes =
+            std::min(options.memoryBytes, 2 * sizeof(vec4) * backend.device->limits().texelBufferElements);
+    return options;
+}
+
+Image reconstruct(Backend& backend, const LightField& field, const ReconstructOptions& options,
+                  bool compareWithCpu, Monitor& monitor, ReconstructReport& report) {
+    return compareWithCpu ? reconstructAndCompare(backend, field, options, monitor, report)
+                          : backend.reconstructor->reconstruct(field, options, monitor, report, nullptr);
+}
+
+void addDetails(nlohmann::ordered_json& details, const CommonOptions& common, const LightField& field,
+                const Backend& backend, const ReconstructReport& report) {
+    details.update({{"method", nameOf(common.method)},
+                    {"device", backend.name},
+                    {"spp", field.samplesPerPixel},
+                    {"seed", common.seed},
+                    {"c1", field.slopeModel.c1},
+                    {"c2", field.slopeModel.c2},
+                    {"samples", field.samples.size()},
+                    {"overscanLeft", field.frame.x0 - field.bounds.x0},
+                    {"overscanTop", field.frame.y0 - field.bounds.y0},
+                    {"overscanRight", field.bounds.x1 - field.frame.x1},
+                    {"overscanBottom", field.bounds.y1 - field.frame.y1}});
+    if (common.method != Method::box) {
+        details["outSpp"] = common.outSpp;
+        details["outputs"] = report.outputs;
+        details["visibility"] = report.visibility;
+        details["widened"] = report.widened;
+        details["holes"] = report.holes;
+        details["overflowed"] = report.overflowed;
+    }
+    if (common.method == Method::window) {
+        const WindowSearch search = windowSearch(field, common.window);
+        details["windowRange"] = search.rangePx;
+        details["windowAlpha"] = search.alpha;
+        details["windowDelta"] = search.lensStep;
+        details["windowFill"] = search.fill != 0;
+    }
+}
+
+std::vector<StageStats> stagesOf(std::vector<StageStats> stages, const ReconstructReport& report) {
+    std::erase_if(stages, [](const StageStats& stage) { return stage.name == "reconstruct"; });
+    stages.insert(stages.end(), report.stages.begin(), report.stages.end());
+    return stages;
+}
+
+} // namespace slant::commands

@@ -1,0 +1,30 @@
+// What `render` and `reconstruct` share: from a light field to its picture.
+#pragma once
+#include "commands/options.h"
+
+#include "compute/backend.h"
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+namespace slant::commands {
+
+/// --compare
+void addCompareOption(CLI::App& command, bool& compareWithCpu);
+
+ReconstructOptions reconstructOptions(const CommonOptions& common, const PixelFilter& filter,
+                                      const Backend& backend);
+
+/// The picture of a sanitized field. With compareWithCpu the CPU runs beside the backend, and the first stage
+/// that differs is an Error(outOfBounds).
+Image reconstruct(Backend& backend, const LightField& field, const ReconstructOptions& options,
+                  bool compareWithCpu, Monitor& monitor, ReconstructReport& report);
+
+/// Adds to `details` how the picture was made.
+void addDetails(nlohmann::ordered_json& details, const CommonOptions& common, const LightField& field,
+                const Backend& backend, const ReconstructReport& report);
+
+/// `stages` as the monitor saw them, with what the report says of the reconstruction in place of its own.
+std::vector<StageStats> stagesOf(std::vector<StageStats> stages, const ReconstructReport& report);
+
+} // namespace slant::commands
