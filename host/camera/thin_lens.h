@@ -1,17 +1,13 @@
 // pbrt-v4's perspective camera: a thin lens in the plane z = 0 of a left-handed camera space that looks along
 // +z, and the slopes of trajectories seen through it.
 #pragma once
-#include "camera/slope_model.h"
+#include "camera/camera_sample.h"
+#include "camera/disc.h"
 #include "scene/scene.h"
 
 #include <glm/glm.hpp>
 
 namespace slant {
-
-/// A ray in world space whose parameter is the camera-space depth: origin + w * direction has depth w.
-struct CameraRay {
-    glm::vec3 origin, direction;
-};
 
 class ThinLens {
 public:
@@ -27,6 +23,12 @@ public:
         return {centre_ + right_ * onLens.x + down_ * onLens.y,
                 forward_ + right_ * (tangent.x - onLens.x * inverseFocalDistance_) +
                     down_ * (tangent.y - onLens.y * inverseFocalDistance_)};
+    }
+
+    /// The same for `square` in [0, 1)^2, spread evenly over the lens. Every weight is 1.
+    CameraSample sample(glm::vec2 raster, glm::vec2 square) const {
+        const glm::vec2 lens = concentricDisc(square.x, square.y);
+        return {ray(raster, lens), lens, 1, slopeModel()};
     }
 
     /// c1 = -S A, c2 = S A / f with S = pixelsPerTangent.

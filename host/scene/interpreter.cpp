@@ -138,7 +138,7 @@ void Interpreter::worldBegin(Tokenizer&, const Position&) {
     state_.transform = {};
     state_.active = ActiveTransform::all;
     coordinateSystems_["world"] = state_.transform;
-    options_.resolve(scene_, monitor_);
+    options_.resolve(scene_, files_, monitor_);
 }
 
 void Interpreter::push(bool isObject, const Position& where) {

@@ -2,6 +2,8 @@
 
 #include "base/monitor.h"
 #include "base/suggest.h"
+#include "scene/lens_file.h"
+#include "scene/scene_files.h"
 #include "scene/spelling.h"
 
 #include <algorithm>
@@ -19,6 +21,7 @@ constexpr float kMaxFilterRadiusPx = 128;
 constexpr std::string_view kFilters[] = {"box", "triangle", "gaussian", "mitchell", "sinc"};
 constexpr std::string_view kSamplers[] = {"halton",     "independent", "paddedsobol", "sobol",
                                           "stratified", "zsobol",      "pmj02bn"};
+constexpr std::string_view kCameras[] = {"perspective", "realistic"};
 constexpr std::string_view kIntegrators[] = {"path", "volpath"};
 
 /// Throws unless `kind` is one of `kinds`.
@@ -72,7 +75,8 @@ Film readFilm(const std::string& kind, ParameterList& parameters, float exposure
         throw badInput(parameters.positionOf("whitebalance"), "'whitebalance' other than 0 is not supported");
     film.imagingRatio = exposureTime * parameters.number("iso", 100, kPositive) / 100;
     film.maxComponentValue = parameters.number("maxcomponentvalue", kPositive).value_or(0);
-    parameters.ignore({"diagonal", "savefp16"}); // realistic cameras only; our own option
+    film.diagonalMm = parameters.number("diagonal", 35, kPositive);
+    parameters.ignore({"savefp16"});
     parameters.finish();
     return film;
 }
@@ -107,17 +111,36 @@ PixelFilter readFilter(const std::string& kind, ParameterList& parameters) {
     return filter;
 }
 
-PerspectiveCamera readCamera(const std::string& kind, ParameterList& parameters) {
-    checkKind("camera", kind, std::array<std::string_view, 1>{"perspective"}, parameters);
+PerspectiveCamera readShutter(const std::string& kind, ParameterList& parameters) {
+    checkKind("camera", kind, kCameras, parameters);
     PerspectiveCamera camera;
-    camera.fovDegrees = parameters.number("fov", 90, {0, 179.99, true});
-    camera.lensRadius = parameters.number("lensradius", 0, kNonNegative);
-    camera.focalDistance = parameters.number("focaldistance", 1e6f, kPositive);
     camera.shutterOpen = parameters.number("shutteropen", 0);
     camera.shutterClose = parameters.number("shutterclose", 1);
     if (camera.shutterClose <= camera.shutterOpen)
         throw badInput(parameters.position(),
                        "the shutter never opens: 'shutterclose' must be after 'shutteropen'");
+    return camera;
+}
+
+void readPerspective(PerspectiveCamera& camera, ParameterList& parameters) {
+    camera.fovDegrees = parameters.number("fov", 90, {0, 179.99, true});
+    camera.lensRadius = parameters.number("lensradius", 0, kNonNegative);
+    camera.focalDistance = parameters.number("focaldistance", 1e6f, kPositive);
+}
+
+RealisticCamera readRealistic(ParameterList& parameters, const std::string& path, Monitor& monitor) {
+    RealisticCamera camera;
+    camera.lens = readLens(path, parameters.positionOf("lensfile"));
+    camera.apertureDiameterMm = parameters.number("aperturediameter", 1, kPositive);
+    camera.focusDistance = parameters.number("focusdistance", 10, kPositive);
+    camera.focusLocation = parameters.positionOf("focusdistance");
+    if (const double widest = camera.lens.surfaces[camera.lens.stop].diameter;
+        camera.apertureDiameterMm > widest) {
+        monitor.warn(fmt::format("{}: 'aperturediameter' is {} mm, but the stop of {} opens to {} mm only",
+                                 FileLocation(parameters.positionOf("aperturediameter")).text(),
+                                 camera.apertureDiameterMm, path, widest));
+        camera.apertureDiameterMm = widest;
+    }
     return camera;
 }
 
@@ -172,17 +195,26 @@ OptionBlock::Entity& OptionBlock::entity(const std::string& directive, const std
     return entry.first->second;
 }
 
-void OptionBlock::resolve(Scene& scene, Monitor& monitor) {
+void OptionBlock::resolve(Scene& scene, const SceneFiles& files, Monitor& monitor) {
     Entity& camera = entity("Camera", "perspective");
     Entity& film = entity("Film", "rgb");
     Entity& filter = entity("PixelFilter", "gaussian");
     Entity& sampler = entity("Sampler", "zsobol");
     Entity& integrator = entity("Integrator", "volpath");
-    scene.camera = readCamera(camera.kind, camera.parameters);
+    scene.camera = readShutter(camera.kind, camera.parameters);
     scene.camera.worldFromCamera = worldFromCamera_;
     scene.film =
         readFilm(film.kind, film.parameters, scene.camera.shutterClose - scene.camera.shutterOpen, monitor);
-    readScreen(scene.camera, camera.parameters, scene.film);
+    if (camera.kind == "realistic") {
+        const std::optional<std::string> lens = camera.parameters.text("lensfile");
+        if (!lens)
+            throw badInput(camera.parameters.position(), "Camera \"realistic\" needs \"string lensfile\"");
+        scene.realistic = readRealistic(camera.parameters, files.resolve(*lens), monitor);
+        scene.files.push_back(scene.realistic->lens.path);
+    } else {
+        readPerspective(scene.camera, camera.parameters);
+        readScreen(scene.camera, camera.parameters, scene.film);
+    }
     camera.parameters.finish();
     scene.filter = readFilter(filter.kind, filter.parameters);
     scene.pixelSamples = readSampler(sampler.kind, sampler.parameters);

@@ -9,6 +9,7 @@
 namespace slant {
 
 class Monitor;
+class SceneFiles;
 
 /// Keeps the directives (the last of each kind counts, as in pbrt) until all are known, since the camera's
 /// defaults hang on the film's size and the film's exposure on the camera's shutter.
@@ -19,7 +20,7 @@ public:
     void setCameraTransform(const MovingTransform& worldFromCamera) { worldFromCamera_ = worldFromCamera; }
 
     /// Fills the scene's part of it, with pbrt's defaults. Throws Error(badInput).
-    void resolve(Scene& scene, Monitor& monitor);
+    void resolve(Scene& scene, const SceneFiles& files, Monitor& monitor);
 
 private:
     struct Entity {

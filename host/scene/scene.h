@@ -44,6 +44,7 @@ struct Film {
     std::string filename = "pbrt.exr";
     float imagingRatio = 1;
     float maxComponentValue = 0; ///< samples are scaled down to it; 0 = no limit
+    float diagonalMm = 35;       ///< for realistic cameras
 };
 
 /// Camera "perspective".
@@ -54,6 +55,30 @@ struct PerspectiveCamera {
     float focalDistance = 1e6f;                   ///< distance along z of the plane in focus
     glm::vec2 screenMin{-1, -1}, screenMax{1, 1}; ///< screen window after frameaspectratio and its default
     float shutterOpen = 0, shutterClose = 1;
+};
+
+/// One surface of a lens; millimetres.
+struct LensSurface {
+    double radius; ///< of curvature, positive if its centre lies towards the film; 0: the plane of the stop
+    double thickness; ///< distance on the axis to the next surface, towards the film
+    double index;     ///< of refraction between it and the next one
+    double diameter;  ///< clear
+    int line = 0;     ///< of the file
+};
+
+/// A lens from front (scene) to rear (film), with the promises of scene/lens_file.h.
+struct LensPrescription {
+    std::string path; ///< for messages
+    std::vector<LensSurface> surfaces;
+    std::size_t stop = 0; ///< index of the aperture stop
+};
+
+/// Camera "realistic": a lens in front of the film, which is the plane z = 0 of camera space, in metres.
+struct RealisticCamera {
+    LensPrescription lens;
+    double apertureDiameterMm = 1; ///< of the stop, at most what the lens has
+    double focusDistance = 10;     ///< of the plane in focus, from the film, in metres
+    FileLocation focusLocation;    ///< for errors
 };
 
 // ---------------------------------------------------------------- textures, materials
@@ -174,9 +199,10 @@ struct Scene {
     Film film;
     PixelFilter filter;
     PerspectiveCamera camera;
-    int pixelSamples = 16;     ///< Sampler "pixelsamples"
-    int maxDepth = 5;          ///< Integrator "path": number of bounces
-    std::vector<Image> images; ///< 1 or 3 channels
+    std::optional<RealisticCamera> realistic; ///< if set: of `camera` only transform and shutter count
+    int pixelSamples = 16;                    ///< Sampler "pixelsamples"
+    int maxDepth = 5;                         ///< Integrator "path": number of bounces
+    std::vector<Image> images;                ///< 1 or 3 channels
     std::vector<Texture> textures;
     std::vector<Material> materials;
     std::vector<Mesh> meshes;

@@ -1,7 +1,5 @@
 #include "trace/block_tracer.h"
 
-#include "camera/disc.h"
-
 #include <cmath>
 
 namespace slant {
@@ -23,8 +21,7 @@ glm::vec3 exposed(const Film& film, glm::vec3 radiance) {
 
 } // namespace
 
-BlockTracer::BlockTracer(const TraceJob& job, int x0, int y0)
-    : job_(job), slopes_(job.camera.slopeModel()), x0_(x0), y0_(y0) {
+BlockTracer::BlockTracer(const TraceJob& job, int x0, int y0) : job_(job), x0_(x0), y0_(y0) {
     for (int i = 0; i < kLanes; ++i) {
         const std::size_t lane = std::size_t(i);
         places_[lane] = job.pattern.pixel(x(i), y(i));
@@ -45,19 +42,24 @@ void BlockTracer::trace(int sample) {
 }
 
 void BlockTracer::generate(int sample) {
-    for (int lane = 0; lane < kLanes; ++lane) {
-        PatternPoint point = job_.pattern.point(places_[std::size_t(lane)], sample);
-        LightFieldSample& s = samples_[std::size_t(lane)];
-        s.x = std::min(float(x(lane)) + point.x, lastX_[std::size_t(lane)]);
-        s.y = std::min(float(y(lane)) + point.y, lastY_[std::size_t(lane)]);
-        glm::vec2 lens = concentricDisc(point.a, point.b);
-        s.u = lens.x;
-        s.v = lens.y;
-        s.t = point.t;
-        CameraRay ray = job_.camera.ray({s.x, s.y}, lens);
-        rays_[std::size_t(lane)] = {ray.origin, ray.direction, std::numeric_limits<float>::infinity(),
-                                    point.t};
-    }
+    job_.camera.visit([&](const auto& camera) {
+        for (int i = 0; i < kLanes; ++i) {
+            const std::size_t lane = std::size_t(i);
+            const PatternPoint point = job_.pattern.point(places_[lane], sample);
+            LightFieldSample& s = samples_[lane];
+            s.x = std::min(float(x(i)) + point.x, lastX_[lane]);
+            s.y = std::min(float(y(i)) + point.y, lastY_[lane]);
+            const CameraSample seen = camera.sample({s.x, s.y}, {point.a, point.b});
+            s.u = seen.lens.x;
+            s.v = seen.lens.y;
+            s.t = point.t;
+            slopes_[lane] = seen.slope;
+            weights_[lane] = seen.weight;
+            // Where the lens lets nothing through, the film is black, in focus.
+            const float tMax = seen.weight > 0 ? std::numeric_limits<float>::infinity() : 0;
+            rays_[lane] = {seen.ray.origin, seen.ray.direction, tMax, point.t};
+        }
+    });
 }
 
 /// The first vertex of each path, with its shadow ray.
@@ -96,9 +98,9 @@ void BlockTracer::store(int i, int sample) {
     const SurfaceHit& hit = hits_[lane];
     LightFieldSample s = samples_[lane];
     s.w = hit.t;
-    s.slope = slopes_(hit.t);
+    s.slope = slopes_[lane](hit.t);
     s.alpha = hit.hit() ? 1.f : 0.f;
-    glm::vec3 radiance = exposed(job_.scene.film, paths_[lane].radiance);
+    glm::vec3 radiance = exposed(job_.scene.film, weights_[lane] * paths_[lane].radiance);
     s.r = radiance.r;
     s.g = radiance.g;
     s.b = radiance.b;

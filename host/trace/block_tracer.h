@@ -1,6 +1,6 @@
 // Traces one small block of pixels, sample by sample: what Tracer does in parallel.
 #pragma once
-#include "camera/thin_lens.h"
+#include "camera/camera.h"
 #include "trace/geometry.h"
 #include "trace/path.h"
 #include "trace/pattern.h"
@@ -17,7 +17,7 @@ constexpr int kBlockSize = 4;
 /// What one call of Tracer::trace works on (tracer.h).
 struct TraceJob {
     const Scene& scene;
-    const ThinLens& camera;
+    const Camera& camera;
     const Geometry& geometry;
     const Shading& shading;
     const Pattern& pattern;
@@ -46,12 +46,13 @@ private:
     void store(int lane, int sample);
 
     const TraceJob& job_;
-    SlopeModel slopes_;
     int x0_, y0_;
     std::array<PatternPixel, kLanes> places_;
     std::array<float, kLanes> lastX_, lastY_; ///< largest raster positions inside the pixels
     std::array<LightFieldSample, kLanes> samples_;
     std::array<AuxiliarySample, kLanes> auxiliary_;
+    std::array<SlopeModel, kLanes> slopes_;
+    std::array<float, kLanes> weights_; ///< of the radiance
     std::array<Ray, kLanes> rays_;
     std::array<SurfaceHit, kLanes> hits_;
     std::array<ShadingSampler, kLanes> samplers_;

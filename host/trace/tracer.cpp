@@ -17,7 +17,7 @@ int floorDivide(int a, int b) {
 } // namespace
 
 Tracer::Tracer(const Scene& scene, Monitor& monitor)
-    : scene_(scene), camera_(scene.camera, scene.film), geometry_(scene, monitor), shading_(scene) {}
+    : scene_(scene), camera_(scene), geometry_(scene, monitor), shading_(scene) {}
 
 void Tracer::trace(Rect pixels, int firstSample, int count, int samplesPerPixel, std::uint64_t seed,
                    std::span<LightFieldSample> out, std::span<AuxiliarySample> auxiliary,

@@ -2,7 +2,7 @@
 #pragma once
 #include "base/monitor.h"
 #include "base/rect.h"
-#include "camera/thin_lens.h"
+#include "camera/camera.h"
 #include "lightfield/lightfield.h"
 #include "scene/scene.h"
 #include "trace/geometry.h"
@@ -26,12 +26,12 @@ public:
     void trace(Rect pixels, int firstSample, int count, int samplesPerPixel, std::uint64_t seed,
                std::span<LightFieldSample> out, std::span<AuxiliarySample> auxiliary, Monitor& monitor) const;
 
-    const ThinLens& camera() const { return camera_; }
+    const Camera& camera() const { return camera_; }
     const Geometry& geometry() const { return geometry_; }
 
 private:
     const Scene& scene_;
-    ThinLens camera_;
+    Camera camera_;
     Geometry geometry_;
     Shading shading_;
 };
