@@ -23,6 +23,9 @@ public:
     SlopeModel slopeModel() const {
         return visit([](const auto& camera) { return camera.slopeModel(); });
     }
+    /// The lens, if the camera is of that kind.
+    CompoundLens* compoundLens() { return std::get_if<CompoundLens>(&kind_); }
+    const CompoundLens* compoundLens() const { return std::get_if<CompoundLens>(&kind_); }
 
 private:
     using Kind = std::variant<ThinLens, CompoundLens>;

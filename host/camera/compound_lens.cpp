@@ -1,10 +1,12 @@
 #include "camera/compound_lens.h"
 
 #include "base/error.h"
+#include "camera/slope_residual.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace slant {
 namespace {
@@ -27,6 +29,8 @@ CompoundLens::CompoundLens(const RealisticCamera& camera, const MovingTransform&
       mmPerPixel_(double(film.diagonalMm) / std::hypot(film.xResolution, film.yResolution)),
       pupil_(lens_, filmZ_, kFilmReach * double(film.diagonalMm) / 2),
       depthOrigin_(std::clamp(lens_.entrancePupil().z, filmZ_, lens_.frontVertex())),
+      focusDepth_(camera.focusDistance - (depthOrigin_ - filmZ_) / kMillimetres), nearDepth_(focusDepth_ / 2),
+      farDepth_(std::numeric_limits<double>::infinity()),
       filmCentre_(film.xResolution / 2.0, film.yResolution / 2.0) {
     if (worldFromCamera.moves()) throw badInput({}, "camera: a moving camera is not supported");
     if (!(pupil_.radius() > 0))
@@ -37,6 +41,7 @@ CompoundLens::CompoundLens(const RealisticCamera& camera, const MovingTransform&
     down_ = -glm::dvec3(m[1]) / kMillimetres;
     forward_ = glm::dvec3(m[2]) / kMillimetres;
     centre_ = glm::dvec3(m[3]) + forward_ * (depthOrigin_ - filmZ_);
+    slopes_ = fitSlopes(*this, nearDepth_, farDepth_);
 }
 
 /// Both in the plane across the axis, in millimetres.
@@ -45,35 +50,60 @@ LensRay CompoundLens::filmRay(glm::dvec2 film, glm::dvec2 pupil) const {
     return {from, glm::normalize(to - from)};
 }
 
+/// `ray` starts at the film.
+bool CompoundLens::traceWithDerivatives(LensRay& ray, std::array<LensRayDerivative, 4>& derivatives) const {
+    const glm::dvec3 d = ray.direction;
+    const double distance = (pupil_.planeZ() - filmZ_) / d.z;
+    for (int i = 0; i < 4; ++i) { // raster x, y, lens u, v; the film is upside down
+        glm::dvec3 step(0);
+        step[i % 2] = i < 2 ? mmPerPixel_ : pupil_.radius();
+        const glm::dvec3 turn = (step - d * glm::dot(d, step)) / distance;
+        derivatives[std::size_t(i)] = {i < 2 ? -step : glm::dvec3(0), turn};
+    }
+    return lens_.traceFromFilm(ray, derivatives);
+}
+
+ScenePath CompoundLens::scenePath(const LensRay& ray,
+                                  const std::array<LensRayDerivative, 4>& derivatives) const {
+    const glm::dvec2 tangent = glm::dvec2(ray.direction) / ray.direction.z;
+    const double t = (depthOrigin_ - ray.origin.z) / ray.direction.z;
+    ScenePath path;
+    path.line = {glm::dvec2(ray.origin + t * ray.direction) / kMillimetres, tangent};
+    for (std::size_t i = 0; i < 4; ++i) {
+        const glm::dvec3 moved = derivatives[i].origin + t * derivatives[i].direction;
+        const glm::dvec3 turned = derivatives[i].direction;
+        path.change[i] = {(glm::dvec2(moved) - tangent * moved.z) / kMillimetres,
+                          (glm::dvec2(turned) - tangent * turned.z) / ray.direction.z};
+    }
+    return path;
+}
+
+std::optional<ScenePath> CompoundLens::path(glm::dvec2 raster, glm::dvec2 lens) const {
+    LensRay ray = filmRay((filmCentre_ - raster) * mmPerPixel_, lens * pupil_.radius());
+    std::array<LensRayDerivative, 4> derivatives;
+    if (!traceWithDerivatives(ray, derivatives) || ray.direction.z < kLeastForward) return std::nullopt;
+    return scenePath(ray, derivatives);
+}
+
 CameraSample CompoundLens::sample(glm::vec2 raster, glm::vec2 square) const {
-    const CameraSample dark{{glm::vec3(centre_), glm::vec3(forward_)}, glm::vec2(0), 0, {}};
-    const glm::dvec2 offset = (glm::dvec2(raster) - filmCentre_) * mmPerPixel_, film = -offset;
+    const CameraSample dark{{glm::vec3(centre_), glm::vec3(forward_ * kMillimetres)}, glm::vec2(0), 0, {}};
+    const glm::dvec2 offset = (glm::dvec2(raster) - filmCentre_) * mmPerPixel_;
     const double r = glm::length(offset);
     const glm::dvec2 radial = r > 0 ? offset / r : glm::dvec2(1, 0);
-    const auto turned = [&](glm::dvec2 p) {
-        return glm::dvec2(radial.x * p.x - radial.y * p.y, radial.y * p.x + radial.x * p.y);
-    };
     const ExitPupil::Point point = pupil_.sample(r, square);
     if (!(point.area > 0)) return dark;
 
     glm::dvec2 fromCentre = point.position - point.centre;
     for (int step = 0; step < kInwardSteps; ++step, fromCentre *= kInwards) {
-        const glm::dvec2 pupil = turned(point.centre + fromCentre);
-        const LensRay filmSide = filmRay(film, pupil);
+        const glm::dvec2 p = point.centre + fromCentre;
+        const glm::dvec2 pupil(radial.x * p.x - radial.y * p.y, radial.y * p.x + radial.x * p.y);
+        const LensRay filmSide = filmRay(-offset, pupil);
         LensRay ray = filmSide;
-        // Along pixel x, y and lens u, v.
-        const double distance = (pupil_.planeZ() - filmZ_) / filmSide.direction.z;
         std::array<LensRayDerivative, 4> derivatives;
-        for (int i = 0; i < 4; ++i) {
-            glm::dvec3 step3(0);
-            step3[i % 2] = i < 2 ? mmPerPixel_ : pupil_.radius();
-            const glm::dvec3 turn =
-                (step3 - filmSide.direction * glm::dot(filmSide.direction, step3)) / distance;
-            derivatives[std::size_t(i)] =
-                i < 2 ? LensRayDerivative{-step3, turn} : LensRayDerivative{{}, turn};
-        }
-        if (!lens_.traceFromFilm(ray, derivatives)) continue;
+        const bool exact = rung_ == SlopeRung::sample;
+        if (!(exact ? traceWithDerivatives(ray, derivatives) : lens_.traceFromFilm(ray))) continue;
         if (ray.direction.z < kLeastForward) return dark;
+
         const double cosine = filmSide.direction.z, z = pupil_.planeZ() - filmZ_;
         const glm::dvec3 direction = ray.direction / ray.direction.z;
         const glm::dvec3 origin = ray.origin + (depthOrigin_ - ray.origin.z) * direction;
@@ -81,42 +111,49 @@ CameraSample CompoundLens::sample(glm::vec2 raster, glm::vec2 square) const {
         return {{glm::vec3(centre_ + world(origin)), glm::vec3((forward_ + world(direction)) * kMillimetres)},
                 glm::vec2(pupil / pupil_.radius()),
                 float(cosine * cosine * cosine * cosine * point.area / (z * z)),
-                slopeOf(ray, derivatives)};
+                exact ? isotropicSlope(scenePath(ray, derivatives))
+                      : slopes_.at(rung_, r / mmPerPixel_).mean()};
     }
     return dark;
 }
 
-/// The point seen at depth w stays where it is while the lens position moves by du: with Q = position at
-/// depth 0 + w * tangents, dQ/dx dx + dQ/du du = 0. What is left out of the 2 x 2 matrix dx/du is its part
-/// that is not isotropic.
-SlopeModel CompoundLens::slopeOf(const LensRay& ray, std::span<const LensRayDerivative> derivatives) const {
-    std::array<glm::dvec2, 4> position, tangents; // derivatives
-    const glm::dvec2 tangent = glm::dvec2(ray.direction) / ray.direction.z;
-    const double t = (depthOrigin_ - ray.origin.z) / ray.direction.z;
-    for (std::size_t i = 0; i < 4; ++i) {
-        const LensRayDerivative& d = derivatives[i];
-        tangents[i] = (glm::dvec2(d.direction) - tangent * d.direction.z) / ray.direction.z;
-        const glm::dvec3 moved = d.origin + t * d.direction;
-        position[i] = (glm::dvec2(moved) - tangent * moved.z) / kMillimetres;
-    }
-    // With q = 1 / w, X = X0 + q X1 = dQ/dx / w and U likewise: the slope is -trace(X^-1 U) / 2.
-    const auto det = [](glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; };
-    // trace(X^-1 U) = (det(U_0, X_1) + det(X_0, U_1)) / det(X_0, X_1), by columns; each polynomial in q.
-    const auto product = [&](std::size_t i, std::size_t j, std::array<double, 3>& sum, double factor) {
-        sum[0] += factor * det(tangents[i], tangents[j]);
-        sum[1] += factor * (det(tangents[i], position[j]) + det(position[i], tangents[j]));
-        sum[2] += factor * det(position[i], position[j]);
-    };
-    std::array<double, 3> top{}, bottom{};
-    product(2, 1, top, -0.5);
-    product(0, 3, top, -0.5);
-    product(0, 1, bottom, 1);
-    return {float(top[1] / bottom[0]), float(top[0] / bottom[0]), float(top[2] / bottom[0]),
-            float(bottom[1] / bottom[0]), float(bottom[2] / bottom[0])};
+void CompoundLens::chooseSlopes(double nearDepth, double farDepth, double tolerancePx) {
+    nearDepth_ = nearDepth;
+    farDepth_ = farDepth;
+    slopes_ = fitSlopes(*this, nearDepth, farDepth);
+    rung_ = selectRung(slopeResiduals(*this, nearDepth, farDepth), tolerancePx);
 }
 
 SlopeModel CompoundLens::slopeModel() const {
-    return sample(glm::vec2(filmCentre_), {0.5f, 0.5f}).slope;
+    return slopes_.at(SlopeRung::lens, 0).mean();
+}
+
+// A point seen at depth w stays where it is while the lens position moves by du: with Q = position + w *
+// tangent, dQ/dx dx + dQ/du du = 0. Below, q = 1 / w and X + q X' = dQ/dx / w, U likewise.
+
+glm::dmat2 slopeMatrix(const ScenePath& path, double inverseDepth) {
+    const auto column = [&](std::size_t i) {
+        return path.change[i].tangent + inverseDepth * path.change[i].position;
+    };
+    return -(glm::inverse(glm::dmat2(column(0), column(1))) * glm::dmat2(column(2), column(3)));
+}
+
+SlopeModel isotropicSlope(const ScenePath& path) {
+    const auto det = [](glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; };
+    // By Cramer's rule trace(X^-1 U) = (det(U_0, X_1) + det(X_0, U_1)) / det(X_0, X_1), each a polynomial in
+    // q.
+    std::array<double, 3> top{}, bottom{};
+    const auto add = [&](std::array<double, 3>& sum, std::size_t i, std::size_t j, double factor) {
+        const ScenePath::Line &a = path.change[i], &b = path.change[j];
+        sum[0] += factor * det(a.tangent, b.tangent);
+        sum[1] += factor * (det(a.tangent, b.position) + det(a.position, b.tangent));
+        sum[2] += factor * det(a.position, b.position);
+    };
+    add(top, 2, 1, -0.5);
+    add(top, 0, 3, -0.5);
+    add(bottom, 0, 1, 1);
+    return {float(top[1] / bottom[0]), float(top[0] / bottom[0]), float(top[2] / bottom[0]),
+            float(bottom[1] / bottom[0]), float(bottom[2] / bottom[0])};
 }
 
 } // namespace slant

@@ -12,8 +12,28 @@
 #include "camera/camera_sample.h"
 #include "camera/exit_pupil.h"
 #include "camera/lens_system.h"
+#include "camera/slope_fit.h"
+
+#include <optional>
 
 namespace slant {
+
+/// A ray on the side of the scene, in metres to the right and down of the axis: `position` + w * `tangent` at
+/// depth w. `change` says how it changes along raster x, y (pixels) and lens u, v.
+struct ScenePath {
+    struct Line {
+        glm::dvec2 position, tangent;
+        glm::dvec2 at(double depth) const { return position + depth * tangent; }
+    };
+    Line line;
+    std::array<Line, 4> change;
+};
+
+/// How the raster position changes with the lens position at which a point of the ray is seen, `inverseDepth`
+/// = 1 / depth, in pixels per lens radius.
+glm::dmat2 slopeMatrix(const ScenePath& path, double inverseDepth);
+/// The mean of the slopes along two directions at a right angle: half the trace of that matrix.
+SlopeModel isotropicSlope(const ScenePath& path);
 
 /// Depths count from the entrance pupil, but at most from the front vertex, in camera space (metres).
 class CompoundLens {
@@ -25,22 +45,39 @@ public:
     CameraSample sample(glm::vec2 raster, glm::vec2 square) const;
 
     SlopeModel slopeModel() const;
+    /// Measures how well each rung of the ladder predicts trajectories of points from `nearDepth` to
+    /// `farDepth` (may be infinite), and has samples carry slopes of the lowest one that is within the
+    /// tolerance by its 95th percentile, or else of the best.
+    void chooseSlopes(double nearDepth, double farDepth, double tolerancePx = kSlopeTolerancePx);
+    SlopeRung slopeRung() const { return rung_; }
+    /// What was told to chooseSlopes; before, from half the distance in focus to infinity.
+    double nearDepth() const { return nearDepth_; }
+    double farDepth() const { return farDepth_; }
+
+    /// The ray through a raster position and a lens position; nothing if it is blocked.
+    std::optional<ScenePath> path(glm::dvec2 raster, glm::dvec2 lens) const;
 
     const LensSystem& lens() const { return lens_; }
     const ExitPupil& pupil() const { return pupil_; }
     double filmZ() const { return filmZ_; }             ///< in lens space, mm
     double depthOrigin() const { return depthOrigin_; } ///< the same
+    double focusDepth() const { return focusDepth_; }   ///< metres
     double millimetresPerPixel() const { return mmPerPixel_; }
+    glm::dvec2 filmCentre() const { return filmCentre_; } ///< raster
+    const SlopeFit& slopeFit() const { return slopes_; }
 
 private:
-    SlopeModel slopeOf(const LensRay& ray, std::span<const LensRayDerivative> derivatives) const;
     LensRay filmRay(glm::dvec2 film, glm::dvec2 pupil) const;
+    bool traceWithDerivatives(LensRay& ray, std::array<LensRayDerivative, 4>& derivatives) const;
+    ScenePath scenePath(const LensRay& ray, const std::array<LensRayDerivative, 4>& derivatives) const;
 
     LensSystem lens_;
     double filmZ_, mmPerPixel_;
     ExitPupil pupil_;
-    double depthOrigin_;
-    glm::dvec2 filmCentre_; ///< raster
+    double depthOrigin_, focusDepth_, nearDepth_, farDepth_;
+    glm::dvec2 filmCentre_;
+    SlopeFit slopes_;
+    SlopeRung rung_ = SlopeRung::filmRadius;
     glm::dvec3 centre_{0}, right_{0}, down_{0},
         forward_{0}; ///< world space: depth 0 on the axis; mm of lens space
 };

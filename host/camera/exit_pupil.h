@@ -27,6 +27,7 @@ public:
     /// For the film point (-r, 0) with 0 <= r: `square` in [0, 1)^2 is mapped as concentricDisc does.
     Point sample(double r, glm::vec2 square) const;
 
+    double filmRadius() const { return filmRadius_; }
     double planeZ() const { return planeZ_; }
     /// The largest distance from the axis of any pupil on its plane.
     double radius() const { return radius_; }

@@ -122,6 +122,16 @@ bool LensSystem::traceFromScene(LensRay& ray) const {
     return true;
 }
 
+std::vector<glm::dvec3> LensSystem::corners(LensRay ray, double front) const {
+    std::vector<glm::dvec3> points{ray.origin};
+    for (auto s = surfaces_.rbegin(); s != surfaces_.rend(); ++s) {
+        if (!pass(*s, s->indexBehind / s->indexBefore, ray, {})) return {};
+        if (s->radius != 0) points.push_back(ray.origin);
+    }
+    points.push_back(ray.origin + (front - ray.origin.z) / ray.direction.z * ray.direction);
+    return points;
+}
+
 double LensSystem::rearRadius() const {
     return std::sqrt(surfaces_.back().clearRadius2);
 }

@@ -39,6 +39,10 @@ public:
     /// The same from the scene, until it has left the rear surface.
     bool traceFromScene(LensRay& ray) const;
 
+    /// For drawings: where a ray from the film begins, meets each surface and reaches the plane z = `front`;
+    /// empty if it is blocked.
+    std::vector<glm::dvec3> corners(LensRay ray, double front) const;
+
     double focalLength() const { return focalLength_; }
     double frontVertex() const { return surfaces_.front().vertex; }
     double frontFocus() const { return frontFocus_; }

@@ -14,10 +14,11 @@ void addRender(CLI::App& program);
 void addReference(CLI::App& program);
 void addDiff(CLI::App& program);
 void addChart(CLI::App& program);
+void addLens(CLI::App& program);
 void addDevices(CLI::App& program);
 
 /// In the order in which `slant --help` lists them.
-inline constexpr std::initializer_list<AddCommand> kCommands = {addRender, addReference, addDiff, addChart,
-                                                                addDevices};
+inline constexpr std::initializer_list<AddCommand> kCommands = {addRender, addReference, addDiff,
+                                                                addChart,  addLens,      addDevices};
 
 } // namespace slant::commands

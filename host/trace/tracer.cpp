@@ -4,6 +4,9 @@
 #include "base/parallel.h"
 #include "trace/block_tracer.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace slant {
 namespace {
 
@@ -14,10 +17,39 @@ int floorDivide(int a, int b) {
     return a >= 0 ? a / b : -((b - 1 - a) / b);
 }
 
+/// Rays along one side of the film that look for the depths of a scene, and the share of them at either end
+/// that does not count.
+constexpr int kDepthProbes = 32;
+constexpr double kOutlierShare = 0.02;
+
+/// Depths that the middle of the lens sees, nearest and farthest but for outliers; the farthest may be
+/// infinite.
+std::pair<double, double> depthRange(const CompoundLens& lens, const Geometry& geometry, Rect film) {
+    std::vector<float> depths;
+    for (int i = 0; i < kDepthProbes * kDepthProbes; ++i) {
+        const glm::vec2 part((float(i % kDepthProbes) + 0.5f) / kDepthProbes,
+                             (float(i / kDepthProbes) + 0.5f) / kDepthProbes);
+        const glm::vec2 raster = glm::vec2(film.x0, film.y0) + part * glm::vec2(film.width(), film.height());
+        const CameraSample sample = lens.sample(raster, {0.5f, 0.5f});
+        SurfaceHit hit;
+        if (sample.weight > 0) geometry.intersect({sample.ray.origin, sample.ray.direction}, hit);
+        depths.push_back(hit.t);
+    }
+    std::sort(depths.begin(), depths.end());
+    const std::size_t outliers = std::size_t(kOutlierShare * double(depths.size()));
+    return {double(depths[outliers]), double(depths[depths.size() - 1 - outliers])};
+}
+
 } // namespace
 
 Tracer::Tracer(const Scene& scene, Monitor& monitor)
-    : scene_(scene), camera_(scene), geometry_(scene, monitor), shading_(scene) {}
+    : scene_(scene), camera_(scene), geometry_(scene, monitor), shading_(scene) {
+    if (CompoundLens* lens = camera_.compoundLens()) {
+        const auto [nearest, farthest] =
+            depthRange(*lens, geometry_, {0, 0, scene.film.xResolution, scene.film.yResolution});
+        if (std::isfinite(nearest)) lens->chooseSlopes(nearest, farthest);
+    }
+}
 
 void Tracer::trace(Rect pixels, int firstSample, int count, int samplesPerPixel, std::uint64_t seed,
                    std::span<LightFieldSample> out, std::span<AuxiliarySample> auxiliary,

@@ -1,0 +1,39 @@
+// How far from the truth each slope model puts points of the scene on the raster.
+#pragma once
+#include "camera/compound_lens.h"
+
+#include <vector>
+
+namespace slant {
+
+/// Pixels between where a point is seen through one lens position and where its sample at another one
+/// predicts it, over pairs of lens positions all over the pupil.
+struct Residual {
+    double percentile95 = 0, maximum = 0;
+};
+
+/// At one depth, over the field up to the corners of the film.
+struct DepthResiduals {
+    double depth = 0;    ///< metres, may be infinite
+    double blurPx = 0;   ///< largest slope met
+    Residual lens;       ///< one slope for the whole lens
+    Residual radiusMean; ///< by film radius, the mean of radial and tangential
+    Residual radius;     ///< by film radius, the two apart
+    /// The same, after what the lens does to points in focus has been taken off raster positions: by how much
+    /// trajectories are curved in the same way at all depths.
+    Residual corrected;
+    Residual sampleMean; ///< by sample, the isotropic part
+    Residual sample;     ///< by sample, 2 x 2
+};
+
+/// At `nearDepth`, in focus (if between them) and at `farDepth`.
+std::vector<DepthResiduals> slopeResiduals(const CompoundLens& camera, double nearDepth, double farDepth);
+
+/// The largest 95th percentile of a rung's isotropic slopes.
+double worstResidual(const std::vector<DepthResiduals>& residuals, SlopeRung rung);
+
+/// The lowest rung whose isotropic residuals stay within the tolerance by their 95th percentile at each
+/// depth; else the one of the smallest.
+SlopeRung selectRung(const std::vector<DepthResiduals>& residuals, double tolerancePx);
+
+} // namespace slant
