@@ -36,14 +36,16 @@ private:
     std::string text_;
 };
 
-/// Points (z, x) of a surface from the lower to the upper rim.
-std::vector<glm::dvec2> arc(const LensSystem::Outline& surface, double clearRadius) {
+/// Points (z, x) of a surface from its lower to its upper rim, and straight on to the edge of its glass.
+std::vector<glm::dvec2> profile(const LensSystem::Outline& surface, double edge) {
     std::vector<glm::dvec2> points;
     for (int i = 0; i <= kArcPoints; ++i) {
-        const double x = clearRadius * (2.0 * i / kArcPoints - 1), r = surface.radius;
+        const double x = surface.clearRadius * (2.0 * i / kArcPoints - 1), r = surface.radius;
         const double root = std::sqrt(std::max(r * r - x * x, 0.0));
         points.emplace_back(surface.vertex - (r > 0 ? r - root : r + root), x);
     }
+    points.insert(points.begin(), {points.front().x, -edge});
+    points.emplace_back(points.back().x, edge);
     return points;
 }
 
@@ -55,10 +57,9 @@ void drawGlass(Sheet& sheet, const std::vector<LensSystem::Outline>& surfaces) {
                 sheet.path({{s.vertex, side * s.clearRadius}, {s.vertex, side * (s.clearRadius + 3)}},
                            "stroke=\"black\" stroke-width=\"3\"");
         } else if (s.glassBehind && i + 1 < surfaces.size()) {
-            const double rim = std::max(s.clearRadius, surfaces[i + 1].clearRadius);
-            const auto fits = [&](const LensSystem::Outline& o) { return std::min(rim, std::abs(o.radius)); };
-            std::vector<glm::dvec2> outline = arc(s, fits(s)),
-                                    rear = arc(surfaces[i + 1], fits(surfaces[i + 1]));
+            const LensSystem::Outline& next = surfaces[i + 1];
+            const double edge = std::max(s.clearRadius, next.clearRadius);
+            std::vector<glm::dvec2> outline = profile(s, edge), rear = profile(next, edge);
             outline.insert(outline.end(), rear.rbegin(), rear.rend());
             outline.push_back(outline.front());
             sheet.path(outline, "fill=\"#d5e6f3\" stroke=\"#4a6a85\" stroke-width=\"1\"");
