@@ -56,6 +56,10 @@ void AtomicFile::write(const void* data, std::size_t bytes) {
     if (std::fwrite(data, 1, bytes, stream_) != bytes) fail();
 }
 
+void AtomicFile::seek(std::uint64_t position) {
+    if (fseeko(stream_, off_t(position), SEEK_SET) != 0) fail();
+}
+
 void AtomicFile::commit() {
     if (std::fclose(std::exchange(stream_, nullptr)) != 0) fail();
     if (temporary_.empty()) return;

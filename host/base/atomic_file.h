@@ -2,6 +2,7 @@
 // renamed over it when all went well.
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <string>
 #include <string_view>
@@ -20,6 +21,8 @@ public:
 
     void write(const void* data, std::size_t bytes);
     void write(std::string_view text) { write(text.data(), text.size()); }
+    /// Where the next write goes, in bytes from the start.
+    void seek(std::uint64_t position);
     /// Makes the file complete under its name. Nothing may be written afterwards.
     void commit();
 

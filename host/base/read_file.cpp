@@ -1,33 +1,21 @@
 #include "base/read_file.h"
 
 #include "base/error.h"
+#include "base/input_file.h"
 
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <new>
+#include <stdexcept>
 
 namespace slant {
 
 std::string readFile(const std::string& path) {
-    std::error_code error;
-    const std::filesystem::file_type type = std::filesystem::status(path, error).type();
-    if (type == std::filesystem::file_type::not_found) throw badInput({path}, "there is no such file");
-    if (error) throw badInput({path}, "cannot read: {}", error.message());
-    if (type != std::filesystem::file_type::regular) throw badInput({path}, "is not a regular file");
-
-    std::ifstream stream(path, std::ios::binary | std::ios::ate);
-    if (!stream) throw badInput({path}, "cannot read: {}", std::strerror(errno));
+    const InputFile file(path);
     std::string bytes;
     try {
-        bytes.resize(std::size_t(stream.tellg()));
-    } catch (const std::bad_alloc&) {
+        bytes.resize(file.size());
+    } catch (const std::exception&) { // bad_alloc or length_error
         throw Error(ErrorCode::resources, {path}, "no memory to read it");
     }
-    stream.seekg(0);
-    if (!stream.read(bytes.data(), std::streamsize(bytes.size())))
-        throw badInput({path}, "cannot read: it ends early");
+    file.read(0, bytes.data(), bytes.size());
     return bytes;
 }
 

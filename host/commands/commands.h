@@ -12,13 +12,16 @@ using AddCommand = void (*)(CLI::App& program);
 
 void addRender(CLI::App& program);
 void addReference(CLI::App& program);
+void addSample(CLI::App& program);
+void addReconstruct(CLI::App& program);
+void addInfo(CLI::App& program);
 void addDiff(CLI::App& program);
 void addChart(CLI::App& program);
 void addLens(CLI::App& program);
 void addDevices(CLI::App& program);
 
 /// In the order in which `slant --help` lists them.
-inline constexpr std::initializer_list<AddCommand> kCommands = {addRender, addReference, addDiff,
-                                                                addChart,  addLens,      addDevices};
+inline constexpr std::initializer_list<AddCommand> kCommands = {
+    addRender, addReference, addSample, addReconstruct, addInfo, addDiff, addChart, addLens, addDevices};
 
 } // namespace slant::commands

@@ -27,13 +27,21 @@ Metadata metadataOf(const nlohmann::ordered_json& details, const std::vector<Sta
 
 } // namespace
 
-void addPictureOptions(CLI::App& command, PictureOptions& options) {
-    command.add_option("SCENE", options.scene, "pbrt-v4 scene file")->required()->type_name("");
-    command.add_option("-o,--output", options.output, "picture to write (default: the film's filename)")
-        ->type_name("FILE.exr");
+void addSceneOption(CLI::App& command, std::string& scene) {
+    command.add_option("SCENE", scene, "pbrt-v4 scene file")->required()->type_name("");
+}
+
+void addImageOptions(CLI::App& command, PictureOptions& options) {
     command.add_option("--png", options.png, "write an 8-bit sRGB picture too")->type_name("FILE.png");
     addNumber<float>(command, "--exposure", options.exposure, -30, 30, "stops, of the PNG (default 0)");
     command.add_flag("--float", options.float32, "32-bit floats in the EXR instead of half");
+}
+
+void addPictureOptions(CLI::App& command, PictureOptions& options) {
+    addSceneOption(command, options.input);
+    command.add_option("-o,--output", options.output, "picture to write (default: the film's filename)")
+        ->type_name("FILE.exr");
+    addImageOptions(command, options);
     addSamplingOptions(command, options.common);
     addRunOptions(command, options.common);
 }
@@ -43,10 +51,10 @@ void checkOutputs(const PictureOptions& options) {
         if (!path.empty()) checkWritable(path);
 }
 
-Scene readSceneFor(const PictureOptions& options, Monitor& monitor) {
-    Scene scene = readScene(options.scene, monitor);
-    if (options.common.spp) scene.pixelSamples = *options.common.spp;
-    if (const auto& crop = options.common.crop) {
+Scene readSceneFor(const std::string& path, const CommonOptions& options, Monitor& monitor) {
+    Scene scene = readScene(path, monitor);
+    if (options.spp) scene.pixelSamples = *options.spp;
+    if (const auto& crop = options.crop) {
         scene.film.crop = crop->intersect({0, 0, scene.film.xResolution, scene.film.yResolution});
         if (scene.film.crop.empty())
             throw Error(ErrorCode::usage, fmt::format("--crop lies outside the film of {}x{} pixels",

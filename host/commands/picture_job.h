@@ -1,4 +1,4 @@
-// What `render` and `reference` share: their options, the scene they read, and the pictures they write.
+// What the commands that write pictures share: options, the scene that is read, and the pictures.
 #pragma once
 #include "base/monitor.h"
 #include "commands/options.h"
@@ -14,13 +14,17 @@ namespace slant::commands {
 
 struct PictureOptions {
     CommonOptions common;
-    std::string scene;
+    std::string input; ///< scene or light field
     std::string output;
     std::string png;    ///< empty: none
     float exposure = 0; ///< stops, of the PNG
     bool float32 = false;
 };
 
+/// SCENE
+void addSceneOption(CLI::App& command, std::string& scene);
+/// --png, --exposure, --float
+void addImageOptions(CLI::App& command, PictureOptions& options);
 /// SCENE, -o, --png, --exposure, --float and the common options but those of the reconstruction.
 void addPictureOptions(CLI::App& command, PictureOptions& options);
 
@@ -28,7 +32,7 @@ void addPictureOptions(CLI::App& command, PictureOptions& options);
 void checkOutputs(const PictureOptions& options);
 
 /// Reads the scene and applies --crop and --spp.
-Scene readSceneFor(const PictureOptions& options, Monitor& monitor);
+Scene readSceneFor(const std::string& path, const CommonOptions& options, Monitor& monitor);
 
 /// Says which samples were bad and how many pixels are black for want of samples.
 void warnOf(const FieldDefects& defects, std::uint64_t emptyPixels, Monitor& monitor);

@@ -14,14 +14,14 @@ void runReference(PictureOptions options) {
     const Stopwatch watch;
     const ThreadLimit threads(options.common.threads);
     TerminalMonitor monitor(TerminalMonitor::styleOfStderr(options.common.quiet));
-    const Scene scene = readSceneFor(options, monitor);
+    const Scene scene = readSceneFor(options.input, options.common, monitor);
     if (options.output.empty()) options.output = scene.film.filename;
     checkOutputs(options);
     const Tracer tracer(scene, monitor);
     BruteForce result = bruteForce(scene, tracer, options.common.seed, monitor);
     warnOf(result.defects, result.emptyPixels, monitor);
     result.image.displayWindow = {0, 0, scene.film.xResolution, scene.film.yResolution};
-    const nlohmann::ordered_json details = {{"scene", options.scene},
+    const nlohmann::ordered_json details = {{"scene", options.input},
                                             {"method", "reference"},
                                             {"spp", scene.pixelSamples},
                                             {"seed", options.common.seed}};

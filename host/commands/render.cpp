@@ -23,7 +23,7 @@ void runRender(RenderOptions options) {
     const ThreadLimit threads(common.threads);
     TerminalMonitor monitor(TerminalMonitor::styleOfStderr(common.quiet));
     Backend backend(common.device, common.threads);
-    const Scene scene = readSceneFor(options.picture, monitor);
+    const Scene scene = readSceneFor(options.picture.input, common, monitor);
     if (options.picture.output.empty()) options.picture.output = scene.film.filename;
     checkOutputs(options.picture);
     const ReconstructOptions reconstruction = reconstructOptions(common, scene.filter, backend);
@@ -40,7 +40,7 @@ void runRender(RenderOptions options) {
     Image image = reconstruct(backend, field, reconstruction, options.compareWithCpu, monitor, report);
     image.displayWindow = {0, 0, scene.film.xResolution, scene.film.yResolution};
     warnOf(defects, report.emptyPixels, monitor);
-    nlohmann::ordered_json details = {{"scene", options.picture.scene}};
+    nlohmann::ordered_json details = {{"scene", options.picture.input}};
     addDetails(details, common, field, backend, report);
     writeOutputs(options.picture, image, details, stagesOf(monitor.stages(), report), watch.seconds());
 }

@@ -2,6 +2,8 @@
 
 #include "base/parallel.h"
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <mutex>
@@ -23,6 +25,20 @@ void repairComponent(float& value, bool& nonFinite, bool& negative) {
     }
 }
 
+} // namespace
+
+std::uint64_t FieldDefects::total() const {
+    return nonFiniteRadiance + negativeRadiance + badDepth + outsideLens + badPosition;
+}
+
+void FieldDefects::add(const FieldDefects& other) {
+    nonFiniteRadiance += other.nonFiniteRadiance;
+    negativeRadiance += other.negativeRadiance;
+    badDepth += other.badDepth;
+    outsideLens += other.outsideLens;
+    badPosition += other.badPosition;
+}
+
 void repair(LightFieldSample& s, FieldDefects& defects) {
     bool nonFinite = false, negative = false;
     for (float* component : {&s.r, &s.g, &s.b}) repairComponent(*component, nonFinite, negative);
@@ -39,18 +55,17 @@ void repair(LightFieldSample& s, FieldDefects& defects) {
     if (badDepth || outsideLens || badPosition) s.slope = std::numeric_limits<float>::quiet_NaN();
 }
 
-} // namespace
-
-std::uint64_t FieldDefects::total() const {
-    return nonFiniteRadiance + negativeRadiance + badDepth + outsideLens + badPosition;
-}
-
-void FieldDefects::add(const FieldDefects& other) {
-    nonFiniteRadiance += other.nonFiniteRadiance;
-    negativeRadiance += other.negativeRadiance;
-    badDepth += other.badDepth;
-    outsideLens += other.outsideLens;
-    badPosition += other.badPosition;
+bool hasOwnSlopes(const LightField& field) {
+    std::atomic<bool> found = false;
+    parallelFor(0, field.samples.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
+        const auto differs = [&](const LightFieldSample& s) {
+            const float slope = field.slopeModel(s.w);
+            return s.slope != slope && !(std::isnan(s.slope) && std::isnan(slope));
+        };
+        if (std::any_of(field.samples.begin() + long(first), field.samples.begin() + long(last), differs))
+            found = true;
+    });
+    return found;
 }
 
 FieldDefects sanitize(LightField& field) {

@@ -44,6 +44,9 @@ struct LightField {
     std::vector<AuxiliarySample> auxiliary; ///< empty, or one a sample
 };
 
+/// Whether any sample's slope is not that of its depth.
+bool hasOwnSlopes(const LightField& field);
+
 /// What `sanitize` met; each count is of samples.
 struct FieldDefects {
     std::uint64_t nonFiniteRadiance = 0; ///< set to 0
@@ -54,6 +57,9 @@ struct FieldDefects {
     std::uint64_t total() const;
     void add(const FieldDefects& other);
 };
+
+/// Applies the rules of FieldDefects to one sample, and counts.
+void repair(LightFieldSample& sample, FieldDefects& defects);
 
 /// Applies the rules of FieldDefects to every sample, in place; reconstruction expects a sanitized field.
 FieldDefects sanitize(LightField& field);

@@ -24,7 +24,8 @@ std::vector<std::string> readmeCommands() {
 }
 
 bool renders(const std::string& command) {
-    return command.starts_with("slant render scenes/") || command.starts_with("slant reference scenes/");
+    return command.starts_with("slant render scenes/") || command.starts_with("slant reference scenes/") ||
+           command.starts_with("slant sample scenes/");
 }
 
 TEST(Readme, everyCommandWorksAsWritten) {

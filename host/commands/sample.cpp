@@ -1,0 +1,76 @@
+// slant sample: traces a light field into a file.
+#include "base/atomic_file.h"
+#include "base/parallel.h"
+#include "commands/commands.h"
+#include "commands/picture_job.h"
+#include "commands/stats_file.h"
+#include "lightfield/field_file.h"
+#include "trace/sample_pass.h"
+
+#include <memory>
+
+namespace slant::commands {
+namespace {
+
+struct FieldOptions {
+    CommonOptions common;
+    std::string scene, output;
+    bool auxiliary = false;
+};
+
+void checkOptions(const FieldOptions& options) {
+    if (formatForName(options.output) != FieldFormat::deepExr && options.auxiliary)
+        throw Error(ErrorCode::usage,
+                    fmt::format("'{}': TLFR has no albedo and no normals; write a .exr", options.output));
+    for (const std::string& path : {options.output, options.common.statsPath})
+        if (!path.empty()) checkWritable(path);
+}
+
+void runSample(const FieldOptions& options) {
+    const Stopwatch watch;
+    const CommonOptions& common = options.common;
+    const ThreadLimit threads(common.threads);
+    TerminalMonitor monitor(TerminalMonitor::styleOfStderr(common.quiet));
+    checkOptions(options);
+    const Scene scene = readSceneFor(options.scene, common, monitor);
+    const Tracer tracer(scene, monitor);
+    SampleOptions sampling;
+    sampling.samplesPerPixel = scene.pixelSamples;
+    sampling.seed = common.seed;
+    sampling.auxiliary = options.auxiliary;
+    const LightField field = traceLightField(tracer, scene, sampling, monitor);
+
+    FieldDetails details;
+    details.film = {0, 0, scene.film.xResolution, scene.film.yResolution};
+    details.filter = scene.filter;
+    if (!scene.realistic) details.lensRadius = scene.camera.lensRadius;
+    details.source = options.scene;
+    details.seed = common.seed;
+    writeField(options.output, field, details, monitor);
+    if (!common.statsPath.empty())
+        writeStats(common.statsPath, monitor.stages(), watch.seconds(),
+                   {{"scene", options.scene},
+                    {"spp", field.samplesPerPixel},
+                    {"seed", common.seed},
+                    {"samples", field.samples.size()}});
+}
+
+} // namespace
+
+void addSample(CLI::App& program) {
+    CLI::App* command = program.add_subcommand("sample", "Trace a light field into a file");
+    const auto options = std::make_shared<FieldOptions>();
+    addSceneOption(*command, options->scene);
+    command
+        ->add_option("-o,--output", options->output,
+                     "light field to write: deep OpenEXR (.exr) or TLFR "
+                     "(.bin, .txt, with a .header beside it)")
+        ->required()
+        ->type_name("FILE");
+    command->add_flag("--auxiliary", options->auxiliary, "with albedo and normal of every sample");
+    addSamplingOptions(*command, options->common);
+    addRunOptions(*command, options->common);
+    command->callback([options] { runSample(*options); });
+}
+
+} // namespace slant::commands

@@ -1,0 +1,338 @@
+#include "lightfield/deep_exr.h"
+
+#include "base/atomic_file.h"
+#include "base/input_file.h"
+#include "lightfield/deep_row.h"
+
+#include <ImathBox.h>
+#include <OpenEXR/Iex.h>
+#include <OpenEXR/ImfBoxAttribute.h>
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfDeepScanLineInputFile.h>
+#include <OpenEXR/ImfDeepScanLineOutputFile.h>
+#include <OpenEXR/ImfFloatAttribute.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfIntAttribute.h>
+#include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfTestFile.h>
+#include <OpenEXR/ImfVersion.h>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace slant {
+namespace {
+
+constexpr int kVersion = 1;
+/// Bytes that a compressed one can stand for (deflate), with room for the rest of the file.
+constexpr std::uint64_t kLargestRatio = 1100;
+/// The least that a sample takes before compression: the required channels, three of them as halves at most.
+constexpr std::uint64_t kLeastSampleBytes = 22;
+
+Imath::Box2i toBox(const Rect& r) {
+    return {{r.x0, r.y0}, {r.x1 - 1, r.y1 - 1}};
+}
+
+/// Clamped to what any extent may be, and some more.
+Rect toRect(const Imath::Box2i& b) {
+    constexpr int kLimit = 1 << 29;
+    const auto clamped = [=](int v) { return std::clamp(v, -kLimit, kLimit); };
+    return {clamped(b.min.x), clamped(b.min.y), clamped(b.max.x) + 1, clamped(b.max.y) + 1};
+}
+
+class InputStream final : public Imf::IStream {
+public:
+    explicit InputStream(const InputFile& file) : IStream(file.path().c_str()), file_(file) {}
+    bool read(char data[], int count) override {
+        if (position_ > file_.size() || std::uint64_t(count) > file_.size() - position_)
+            throw Iex::InputExc("it ends early");
+        file_.read(position_, data, std::size_t(count));
+        position_ += std::uint64_t(count);
+        return position_ < file_.size();
+    }
+    std::uint64_t tellg() override { return position_; }
+    void seekg(std::uint64_t position) override { position_ = position; }
+
+private:
+    const InputFile& file_;
+    std::uint64_t position_ = 0;
+};
+
+/// Remembers a failure, since OpenEXR's destructors swallow errors.
+class OutputStream final : public Imf::OStream {
+public:
+    OutputStream(AtomicFile& file, const std::string& path) : OStream(path.c_str()), file_(file) {}
+    void write(const char data[], int count) override {
+        guarded([&] { file_.write(data, std::size_t(count)); });
+        position_ += std::uint64_t(count);
+    }
+    std::uint64_t tellp() override { return position_; }
+    void seekp(std::uint64_t position) override {
+        guarded([&] { file_.seek(position); });
+        position_ = position;
+    }
+    void rethrow() const {
+        if (failure_) std::rethrow_exception(failure_);
+    }
+
+private:
+    template <typename Action>
+    void guarded(const Action& action) {
+        try {
+            action();
+        } catch (...) {
+            failure_ = std::current_exception();
+            throw Iex::IoExc("cannot write");
+        }
+    }
+
+    AtomicFile& file_;
+    std::uint64_t position_ = 0;
+    std::exception_ptr failure_;
+};
+
+// ---------------------------------------------------------------- header
+
+template <typename Attribute>
+const Attribute* find(const Imf::Header& header, const std::string& name) {
+    return header.findTypedAttribute<Attribute>(name.c_str());
+}
+
+/// The header, before OpenEXR allocates anything of the sizes that it speaks of.
+Imf::Header readHeader(const InputFile& file) {
+    InputStream stream(file);
+    bool tiled = false, deep = false, multiPart = false;
+    if (!Imf::isOpenExrFile(stream, tiled, deep, multiPart) || !deep || tiled || multiPart)
+        throw badInput({file.path()}, "is no light field: it is {}",
+                       multiPart ? "a multi-part OpenEXR file" : "an OpenEXR file without deep scanlines");
+    constexpr std::uint64_t kVersionField = 4;
+    stream.seekg(kVersionField);
+    int version = 0;
+    char bytes[4];
+    stream.read(bytes, sizeof bytes);
+    for (int i = 0; i < 4; ++i) version |= int(static_cast<unsigned char>(bytes[i])) << (8 * i);
+    Imf::Header header;
+    header.readFrom(stream, version);
+    header.sanityCheck();
+    if (!header.hasType() || header.type() != Imf::DEEPSCANLINE)
+        throw badInput({file.path()}, "is no light field: its type is not '{}'", Imf::DEEPSCANLINE);
+    return header;
+}
+
+/// Constants and details.
+void readAttributes(const FileLocation& where, const Imf::Header& header, bool slopesGiven, FieldFile& file) {
+    if (const auto* version = find<Imf::IntAttribute>(header, "slant:version"))
+        if (version->value() != kVersion)
+            throw badInput(where, "slant:version {} is not {}", version->value(), kVersion);
+    for (const auto& [name, value] :
+         {std::pair("slant:c1", &file.field.slopeModel.c1), {"slant:c2", &file.field.slopeModel.c2}}) {
+        const auto* attribute = find<Imf::FloatAttribute>(header, name);
+        if (attribute)
+            *value = attribute->value();
+        else if (!slopesGiven)
+            throw badInput(where, "has neither the float attribute '{}' nor a channel 'slope'", name);
+    }
+    for (auto i = header.begin(); i != header.end(); ++i) {
+        const std::string name = i.name(), prefix = "slant:";
+        if (!name.starts_with(prefix)) continue;
+        if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&i.attribute()))
+            setDetail(file.details, where, name.substr(prefix.size()), text->value());
+        else if (const auto* number = dynamic_cast<const Imf::FloatAttribute*>(&i.attribute()))
+            setDetail(file.details, where, name.substr(prefix.size()), fmt::to_string(number->value()));
+    }
+}
+
+bool hasChannel(const FileLocation& where, const Imf::Header& header, const DeepChannel& channel) {
+    const Imf::Channel* found = header.channels().findChannel(channel.name);
+    if (!found) return false;
+    if (found->xSampling != 1 || found->ySampling != 1)
+        throw badInput(where, "channel '{}' is subsampled", channel.name);
+    if (found->type != Imf::FLOAT && (channel.exact || found->type != Imf::HALF))
+        throw badInput(where, "channel '{}' must be of type float{}", channel.name,
+                       channel.exact ? "" : " or half");
+    return true;
+}
+
+/// Those that the file has. Throws where one is missing that it needs.
+template <std::size_t count>
+std::vector<DeepChannel> present(const FileLocation& where, const Imf::Header& header,
+                                 const std::array<DeepChannel, count>& channels) {
+    std::vector<DeepChannel> list;
+    for (const DeepChannel& channel : channels) {
+        if (hasChannel(where, header, channel))
+            list.push_back(channel);
+        else if (channel.required)
+            throw badInput(where, "has no channel '{}'", channel.name);
+    }
+    return list;
+}
+
+template <std::size_t count>
+bool hasAny(const Imf::Header& header, const std::array<DeepChannel, count>& channels) {
+    return std::any_of(channels.begin(), channels.end(), [&](const DeepChannel& channel) {
+        return header.channels().findChannel(channel.name) != nullptr;
+    });
+}
+
+void requireBytes(const InputFile& file, std::uint64_t pixels, std::uint64_t samples) {
+    if ((pixels * sizeof(unsigned) + samples * kLeastSampleBytes) / kLargestRatio > file.size())
+        throw badInput({file.path()}, "{} bytes cannot hold {} pixels and {} samples", file.size(), pixels,
+                       samples);
+}
+
+// ---------------------------------------------------------------- samples
+
+/// How many samples every pixel has.
+int readSamplesPerPixel(const InputFile& input, Imf::DeepScanLineInputFile& file, const Rect& bounds) {
+    std::vector<unsigned> counts(bounds.area());
+    file.setFrameBuffer(countBuffer(counts, bounds));
+    file.readPixelSampleCounts(bounds.y0, bounds.y1 - 1);
+    const auto other = std::find_if(counts.begin(), counts.end(), [&](unsigned n) { return n != counts[0]; });
+    if (other != counts.end()) {
+        const auto place = int(other - counts.begin());
+        throw badInput(
+            {input.path()},
+            "pixel ({}, {}) has {} samples and pixel ({}, {}) has {}: fields whose pixels differ in "
+            "their number of samples are not read",
+            bounds.x0, bounds.y0, counts[0], bounds.x0 + place % bounds.width(),
+            bounds.y0 + place / bounds.width(), *other);
+    }
+    return int(std::min<unsigned>(counts[0], std::numeric_limits<int>::max()));
+}
+
+/// What a file without these channels means.
+void fillIn(LightField& field, bool alpha, bool slope) {
+    for (LightFieldSample& s : field.samples) {
+        if (!alpha) s.alpha = std::isinf(s.w) ? 0.f : 1.f;
+        if (!slope) s.slope = field.slopeModel(s.w);
+    }
+}
+
+void readSamples(const FileLocation& where, Imf::DeepScanLineInputFile& file, FieldFile& result,
+                 Monitor& monitor) {
+    const Imf::Header& header = file.header();
+    LightField& field = result.field;
+    const std::size_t rowSamples = std::size_t(field.bounds.width()) * std::size_t(field.samplesPerPixel);
+    DeepRow row(field.bounds, field.samplesPerPixel);
+    const auto addAll = [&](const auto& channels, auto& samples, std::size_t rowStep) {
+        constexpr std::size_t kSize = sizeof samples[0];
+        row.add(present(where, header, channels), samples.data(), kSize, rowStep * kSize);
+    };
+    addAll(kSampleChannels, field.samples, rowSamples);
+    if (!field.auxiliary.empty()) addAll(kAuxiliaryChannels, field.auxiliary, rowSamples);
+    std::vector<MotionSample> motion(hasAny(header, kMotionChannels) ? rowSamples : 0);
+    if (!motion.empty()) addAll(kMotionChannels, motion, 0);
+
+    monitor.beginStage("read", field.samples.size(), "samples");
+    file.setFrameBuffer(row.frameBuffer());
+    for (int y = field.bounds.y0; y < field.bounds.y1; ++y) {
+        row.moveTo(y);
+        file.readPixelSampleCounts(y, y); // OpenEXR forgets them with every new frame buffer
+        row.checkCounts(where);
+        file.readPixels(y, y);
+        result.movingSamples +=
+            std::uint64_t(std::count_if(motion.begin(), motion.end(), [](const MotionSample& m) {
+                return m.x != 0 || m.y != 0 || m.w != 0;
+            }));
+        monitor.advance(rowSamples);
+    }
+    fillIn(field, header.channels().findChannel("A"), header.channels().findChannel("slope"));
+    monitor.endStage();
+}
+
+// ---------------------------------------------------------------- writing
+
+Imf::Header makeHeader(const LightField& field, const FieldDetails& details,
+                       const std::vector<DeepChannel>& channels) {
+    Imf::Header header(toBox(details.film), toBox(field.bounds));
+    header.setType(Imf::DEEPSCANLINE);
+    header.compression() = Imf::NO_COMPRESSION;
+    for (const DeepChannel& channel : channels)
+        header.channels().insert(channel.name, Imf::Channel(Imf::FLOAT));
+    header.insert("slant:version", Imf::IntAttribute(kVersion));
+    header.insert("slant:c1", Imf::FloatAttribute(field.slopeModel.c1));
+    header.insert("slant:c2", Imf::FloatAttribute(field.slopeModel.c2));
+    header.insert("slant:frame", Imf::Box2iAttribute(toBox(field.frame)));
+    for (const auto& [name, value] : metadataOf(details)) {
+        if (const auto* text = std::get_if<std::string>(&value))
+            header.insert(name, Imf::StringAttribute(*text));
+        else
+            header.insert(name, Imf::FloatAttribute(std::get<float>(value)));
+    }
+    return header;
+}
+
+void encode(Imf::OStream& stream, const LightField& field, const FieldDetails& details, Monitor& monitor) {
+    std::vector<DeepChannel> channels(kSampleChannels.begin(), kSampleChannels.end());
+    if (!hasOwnSlopes(field)) channels.pop_back();
+    std::vector<DeepChannel> all = channels;
+    if (!field.auxiliary.empty()) all.insert(all.end(), kAuxiliaryChannels.begin(), kAuxiliaryChannels.end());
+
+    const std::size_t rowSamples = std::size_t(field.bounds.width()) * std::size_t(field.samplesPerPixel);
+    DeepRow row(field.bounds, field.samplesPerPixel);
+    // OpenEXR only reads from them.
+    row.add(channels, const_cast<LightFieldSample*>(field.samples.data()), sizeof(LightFieldSample),
+            rowSamples * sizeof(LightFieldSample));
+    if (!field.auxiliary.empty())
+        row.add(kAuxiliaryChannels, const_cast<AuxiliarySample*>(field.auxiliary.data()),
+                sizeof(AuxiliarySample), rowSamples * sizeof(AuxiliarySample));
+
+    Imf::DeepScanLineOutputFile file(stream, makeHeader(field, details, all));
+    file.setFrameBuffer(row.frameBuffer());
+    for (int y = field.bounds.y0; y < field.bounds.y1; ++y) {
+        row.moveTo(y);
+        file.writePixels(1);
+        monitor.advance(rowSamples);
+    }
+}
+
+} // namespace
+
+FieldFile readDeepExr(const std::string& path, Monitor& monitor) {
+    const InputFile input(path);
+    const FileLocation where{path};
+    FieldFile result;
+    try {
+        const Imf::Header header = readHeader(input);
+        LightField& field = result.field;
+        field.bounds = toRect(header.dataWindow());
+        result.details.film = toRect(header.displayWindow());
+        const auto* frame = find<Imf::Box2iAttribute>(header, "slant:frame");
+        field.frame = frame ? toRect(frame->value()) : result.details.film.intersect(field.bounds);
+        readAttributes(where, header, header.channels().findChannel("slope"), result);
+        field.samplesPerPixel = 1; // at least
+        checkExtent(where, field, result.details);
+        requireBytes(input, field.bounds.area(), field.bounds.area());
+
+        InputStream stream(input);
+        Imf::DeepScanLineInputFile file(stream);
+        field.samplesPerPixel = readSamplesPerPixel(input, file, field.bounds);
+        checkExtent(where, field, result.details);
+        requireBytes(input, field.bounds.area(), field.bounds.area() * std::uint64_t(field.samplesPerPixel));
+        allocateSamples(field, hasAny(header, kAuxiliaryChannels));
+        readSamples(where, file, result, monitor);
+    } catch (const Iex::BaseExc& error) {
+        throw badInput(where, "is a damaged OpenEXR file: {}", error.what());
+    }
+    return result;
+}
+
+void writeDeepExr(const std::string& path, const LightField& field, const FieldDetails& details,
+                  Monitor& monitor) {
+    AtomicFile file(path);
+    OutputStream stream(file, path);
+    monitor.beginStage("write", field.samples.size(), "samples");
+    try {
+        encode(stream, field, details, monitor);
+    } catch (const Iex::BaseExc& error) {
+        stream.rethrow();
+        throw Error(ErrorCode::resources, {path}, fmt::format("cannot encode as OpenEXR: {}", error.what()));
+    }
+    stream.rethrow();
+    file.commit();
+    monitor.endStage();
+}
+
+} // namespace slant

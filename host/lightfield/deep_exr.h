@@ -1,0 +1,16 @@
+// Light fields as deep OpenEXR scanline files, Slant's own form: one deep sample is one sample of the field.
+// README, "Light field files", lists channels and attributes.
+#pragma once
+#include "lightfield/field_file.h"
+
+namespace slant {
+
+/// Throws Error(badInput) for what is no intact file of that kind, or lacks a channel or constant that a
+/// light field needs, or whose pixels differ in their number of samples.
+FieldFile readDeepExr(const std::string& path, Monitor& monitor);
+
+/// Uncompressed, 32-bit floats; reading gives the same bits again, albedo and normals included.
+void writeDeepExr(const std::string& path, const LightField& field, const FieldDetails& details,
+                  Monitor& monitor);
+
+} // namespace slant

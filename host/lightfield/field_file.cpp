@@ -1,0 +1,114 @@
+#include "lightfield/field_file.h"
+
+#include "base/input_file.h"
+#include "lightfield/deep_exr.h"
+#include "lightfield/tlfr.h"
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <stdexcept>
+
+namespace slant {
+namespace {
+
+constexpr int kMaxCoordinate = 1 << 20;
+constexpr int kMaxSamplesPerPixel = 1 << 16;
+
+bool withinLimits(const Rect& r) {
+    return r.x0 >= -kMaxCoordinate && r.y0 >= -kMaxCoordinate && r.x1 <= kMaxCoordinate &&
+           r.y1 <= kMaxCoordinate;
+}
+
+std::string textOf(const Rect& r) {
+    return fmt::format("[{}, {}) x [{}, {})", r.x0, r.x1, r.y0, r.y1);
+}
+
+bool isOpenExr(const std::string& path) {
+    constexpr char kMagic[4] = {0x76, 0x2f, 0x31, 0x01};
+    const InputFile file(path);
+    char start[4];
+    if (file.size() < sizeof start) return false;
+    file.read(0, start, sizeof start);
+    return std::memcmp(start, kMagic, sizeof start) == 0;
+}
+
+} // namespace
+
+std::string_view nameOf(FieldFormat format) {
+    switch (format) {
+    case FieldFormat::deepExr:
+        return "deep OpenEXR";
+    case FieldFormat::tlfrBinary:
+        return "TLFR 1.3, binary";
+    case FieldFormat::tlfrText:
+        return "TLFR 1.3, text";
+    }
+    return "";
+}
+
+FieldFormat formatForName(const std::string& path) {
+    const std::string extension = std::filesystem::path(path).extension().string();
+    if (extension == ".exr") return FieldFormat::deepExr;
+    if (extension == ".bin") return FieldFormat::tlfrBinary;
+    if (extension == ".txt") return FieldFormat::tlfrText;
+    throw Error(
+        ErrorCode::usage,
+        fmt::format("'{}': a light field's name ends in .exr (deep OpenEXR), .bin or .txt (TLFR)", path));
+}
+
+FieldFile readField(const std::string& path, Monitor& monitor) {
+    const std::string header = ".header";
+    const std::string body = path.ends_with(header) ? path.substr(0, path.size() - header.size()) : path;
+    std::error_code ignored;
+    if (body == path && isOpenExr(path)) return readDeepExr(path, monitor);
+    if (std::filesystem::exists(body + header, ignored)) return readTlfr(body, body + header, monitor);
+    throw badInput({path}, "is no light field: neither OpenEXR nor TLFR, as there is no {}{}", body, header);
+}
+
+void writeField(const std::string& path, const LightField& field, const FieldDetails& details,
+                Monitor& monitor) {
+    const FieldFormat format = formatForName(path);
+    if (format == FieldFormat::deepExr)
+        writeDeepExr(path, field, details, monitor);
+    else
+        writeTlfr(path, field, details, format == FieldFormat::tlfrText, monitor);
+}
+
+void checkExtent(const FileLocation& location, const LightField& field, const FieldDetails& details) {
+    for (const auto& [name, rect] : {std::pair("samples", field.bounds), {"film", details.film}})
+        if (rect.empty() || !withinLimits(rect))
+            throw badInput(location, "the {} span {} pixels, which is not something within +-{}", name,
+                           textOf(rect), kMaxCoordinate);
+    if (field.frame.empty() || field.frame.intersect(field.bounds) != field.frame)
+        throw badInput(location, "the frame {} is not part of the pixels with samples, {}",
+                       textOf(field.frame), textOf(field.bounds));
+    if (field.samplesPerPixel < 1 || field.samplesPerPixel > kMaxSamplesPerPixel)
+        throw badInput(location, "{} samples a pixel are not 1 to {}", field.samplesPerPixel,
+                       kMaxSamplesPerPixel);
+    const std::uint64_t samples = std::uint64_t(field.bounds.area()) * std::uint64_t(field.samplesPerPixel);
+    if (samples >= std::numeric_limits<std::uint32_t>::max())
+        throw badInput(location, "{} samples are not fewer than 2^32 - 1", samples);
+    const SlopeModel& slope = field.slopeModel;
+    if (!std::isfinite(slope.c1) || !std::isfinite(slope.c2))
+        throw badInput(location, "slope constants {} and {} are not finite", slope.c1, slope.c2);
+    if (slope.c1 > 0)
+        throw badInput(
+            location,
+            "the slope constant C1 = {} is positive: what is near would lie behind what is far. Turn "
+            "the lens coordinates round (-u, -v, -C1, -C2)",
+            slope.c1);
+}
+
+void allocateSamples(LightField& field, bool auxiliary) {
+    const std::size_t count = field.bounds.area() * std::size_t(field.samplesPerPixel);
+    try {
+        field.samples.resize(count);
+        field.auxiliary.resize(auxiliary ? count : 0);
+    } catch (const std::exception&) { // bad_alloc or length_error
+        throw Error(ErrorCode::resources, fmt::format("no memory for {} samples", count));
+    }
+}
+
+} // namespace slant

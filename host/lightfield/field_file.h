@@ -1,0 +1,43 @@
+// Light fields as files: our native form, deep OpenEXR (deep_exr.h), and the form of Lehtinen et al. 2011
+// (tlfr.h). README, "Light field files", describes both for those who write them.
+#pragma once
+#include "base/monitor.h"
+#include "lightfield/field_details.h"
+#include "lightfield/lightfield.h"
+
+#include <string>
+
+namespace slant {
+
+enum class FieldFormat { deepExr, tlfrBinary, tlfrText };
+
+struct FieldFile {
+    FieldFormat format = FieldFormat::deepExr;
+    LightField field; ///< as it stands in the file: not sanitized
+    FieldDetails details;
+    std::uint64_t movingSamples = 0; ///< with a motion that is not zero, which is not kept
+};
+
+/// What a person calls it.
+std::string_view nameOf(FieldFormat format);
+
+/// The format by the name's extension: .exr, .bin, .txt. Throws Error(usage) for any other.
+FieldFormat formatForName(const std::string& path);
+
+/// Reads a file of any of the formats, told apart by their content; of TLFR's two files either may be named.
+/// Advances the monitor by samples. Throws Error(badInput) for what is no intact light field.
+FieldFile readField(const std::string& path, Monitor& monitor);
+
+/// In the format of the name's extension. Advances the monitor by samples. Throws Error(resources) if it
+/// cannot be written.
+void writeField(const std::string& path, const LightField& field, const FieldDetails& details,
+                Monitor& monitor);
+
+/// The extent of a field before its samples are there. Throws Error(badInput) unless sizes are within the
+/// limits, the frame lies within the bounds, and c1 <= 0 (nearer is smaller) and c2 are finite.
+void checkExtent(const FileLocation& location, const LightField& field, const FieldDetails& details);
+
+/// Makes room for the samples of checked extents; throws Error(resources) where there is none.
+void allocateSamples(LightField& field, bool auxiliary);
+
+} // namespace slant

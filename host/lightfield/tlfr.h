@@ -1,0 +1,21 @@
+// The sample buffers of Lehtinen et al., "Temporal Light Field Reconstruction for Rendering Distribution
+// Effects", 2011: format 1.3, a body NAME and a text NAME.header.
+//
+// Its slope constants C0, C1 are our C1, C2. Of a sample's sixteen numbers z/w, a, dwdx and dwdy are not
+// read, and written as 0 (a as alpha); alpha is 0 where w is infinite, else 1. What the format does not have,
+// where the frame lies among the pixels and FieldDetails, stands in lines "slant:..." after the header's last
+// one.
+#pragma once
+#include "lightfield/field_file.h"
+
+namespace slant {
+
+/// The body's size must fit the header to the byte, or to the line in a text. Throws Error(badInput).
+FieldFile readTlfr(const std::string& bodyPath, const std::string& headerPath, Monitor& monitor);
+
+/// Body `path` and `path`.header; in a text, numbers are as short as reading the same bits again allows.
+/// Albedo and normals are left out; slopes that do not follow the depths are an Error(usage).
+void writeTlfr(const std::string& path, const LightField& field, const FieldDetails& details, bool text,
+               Monitor& monitor);
+
+} // namespace slant

@@ -1,0 +1,54 @@
+// From scene to picture through a file is the same as without one, to the bit, in every format and on every
+// device.
+#include "image/exr.h"
+#include "support/run_program.h"
+
+#include <gtest/gtest.h>
+
+namespace slant {
+namespace {
+
+class ThroughFiles : public testing::TestWithParam<const char*> {
+protected:
+    void SetUp() override {
+        const char* value = std::getenv("SLANT_TESTS_WITHOUT_VULKAN");
+        if (value && std::string_view(value) == "1" && GetParam() != std::string("cpu"))
+            GTEST_SKIP() << "SLANT_TESTS_WITHOUT_VULKAN";
+    }
+    void run(std::vector<std::string> words, const std::vector<std::string>& more) const {
+        words.insert(words.end(), more.begin(), more.end());
+        const test::ProgramResult result = test::runSlant(words);
+        EXPECT_EQ(result.status, 0) << testing::PrintToString(words) << result.err;
+    }
+    Image picture(const std::string& name) const { return readExr(dir_.file(name)).image; }
+
+    test::TempDir dir_;
+};
+
+TEST_P(ThroughFiles, sampleAndReconstructIsRender) {
+    const std::string scene = SLANT_SOURCE_DIR "/scenes/row.pbrt";
+    const std::vector<std::string> tracing = {"--crop", "201,262,101,148", "--spp", "3", "--seed",
+                                              "5",      "--quiet"};
+    const std::vector<std::string> picturing = {"--out-spp", "16",       "--float",
+                                                "--quiet",   "--device", GetParam()};
+    std::vector<std::string> both = tracing;
+    both.insert(both.end(), picturing.begin(), picturing.end() - 3);
+    both.insert(both.end(), {"--device", GetParam()});
+    run({"render", scene, "-o", dir_.file("render.exr")}, both);
+    const Image expected = picture("render.exr");
+    EXPECT_EQ(expected.width(), 61);
+    for (const std::string field : {"field.exr", "field.bin", "field.txt"}) {
+        run({"sample", scene, "-o", dir_.file(field)}, tracing);
+        run({"reconstruct", dir_.file(field), "-o", dir_.file("out.exr")}, picturing);
+        const Image got = picture("out.exr");
+        EXPECT_EQ(got.dataWindow, expected.dataWindow);
+        EXPECT_EQ(got.displayWindow, expected.displayWindow);
+        EXPECT_TRUE(got.pixels == expected.pixels) << field;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Devices, ThroughFiles, testing::Values("cpu", "auto"),
+                         [](const auto& device) { return std::string(device.param); });
+
+} // namespace
+} // namespace slant

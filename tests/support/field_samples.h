@@ -1,0 +1,47 @@
+// Small light fields for tests of their files.
+#pragma once
+#include "lightfield/field_file.h"
+#include "support/synthetic.h"
+
+#include <cstring>
+#include <limits>
+
+namespace slant::test {
+
+/// Overscan, negative coordinates, background, rubbish in some samples, and every detail set.
+inline FieldFile richField(int spp = 3) {
+    FieldFile file;
+    LightField& field = file.field;
+    field = synthetic::sample(synthetic::discsOverChecks(), {-2, 1, 9, 8}, 4, spp, 3);
+    field.slopeModel = {-35.25f, 11.125f};
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+    const std::vector<float> rubbish = {kInfinity, kNaN, -kInfinity, 0, -3, 1e-42f, 3e38f};
+    for (std::size_t i = 0; i < field.samples.size(); ++i) {
+        LightFieldSample& s = field.samples[i];
+        s.w = 0.7f + float(i % 13) / 3;
+        if (i % 11 == 0) s.w = rubbish[i / 11 % rubbish.size()];
+        if (i % 17 == 0) s.g = rubbish[i / 17 % rubbish.size()];
+        s.alpha = std::isinf(s.w) ? 0.f : 1.f;
+        s.slope = field.slopeModel(s.w);
+    }
+    file.details = {{-5, -4, 40, 30},
+                    PixelFilter{FilterKind::mitchell, {1.7f, 2}, 0.5f, 0.4f, 0.1f},
+                    0.3f,
+                    0.05f,
+                    "m",
+                    "a scene, written by hand",
+                    12345678901234567890u};
+    return file;
+}
+
+/// Bits, so that NaN equals itself.
+inline bool sameBits(const LightField& a, const LightField& b) {
+    return a.samples.size() == b.samples.size() && a.auxiliary.size() == b.auxiliary.size() &&
+           std::memcmp(a.samples.data(), b.samples.data(), a.samples.size() * sizeof(LightFieldSample)) ==
+               0 &&
+           (a.auxiliary.empty() || std::memcmp(a.auxiliary.data(), b.auxiliary.data(),
+                                               a.auxiliary.size() * sizeof(AuxiliarySample)) == 0);
+}
+
+} // namespace slant::test

@@ -1,0 +1,186 @@
+// Light field files: what is written is read again to the bit, and what others write is understood.
+#include "lightfield/summary.h"
+#include "support/deep_file.h"
+#include "support/field_samples.h"
+#include "support/scene_text.h"
+#include "support/temp_dir.h"
+
+#include <cmath>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace slant {
+namespace {
+
+using test::DeepFile;
+using test::RecordingMonitor;
+using test::richField;
+using test::TempDir;
+
+class FieldFiles : public testing::Test {
+protected:
+    FieldFile read(const std::string& name) {
+        monitor_.warnings.clear();
+        return readField(dir_.file(name), monitor_);
+    }
+    void write(const std::string& name, const FieldFile& file) {
+        writeField(dir_.file(name), file.field, file.details, monitor_);
+    }
+
+    TempDir dir_;
+    RecordingMonitor monitor_;
+};
+
+void expectSame(const FieldFile& got, const FieldFile& expected) {
+    EXPECT_EQ(got.field.bounds, expected.field.bounds);
+    EXPECT_EQ(got.field.frame, expected.field.frame);
+    EXPECT_EQ(got.field.samplesPerPixel, expected.field.samplesPerPixel);
+    EXPECT_EQ(got.field.slopeModel.c1, expected.field.slopeModel.c1);
+    EXPECT_EQ(got.field.slopeModel.c2, expected.field.slopeModel.c2);
+    EXPECT_TRUE(test::sameBits(got.field, expected.field));
+    EXPECT_EQ(got.details.film, expected.details.film);
+    EXPECT_EQ(metadataOf(got.details), metadataOf(expected.details));
+    EXPECT_EQ(got.movingSamples, 0u);
+}
+
+TEST_F(FieldFiles, everyFormatReadsWhatItWrote) {
+    for (const int spp : {1, 3})
+        for (const auto& [name, format] : {std::pair("a.exr", FieldFormat::deepExr),
+                                           {"a.bin", FieldFormat::tlfrBinary},
+                                           {"a.txt", FieldFormat::tlfrText}}) {
+            SCOPED_TRACE(name);
+            const FieldFile file = richField(spp);
+            write(name, file);
+            const FieldFile got = read(name);
+            EXPECT_EQ(got.format, format);
+            expectSame(got, file);
+            EXPECT_THAT(monitor_.warnings, testing::IsEmpty());
+        }
+}
+
+TEST_F(FieldFiles, everyFilterAndAnEmptyDescription) {
+    FieldFile file = richField();
+    for (const PixelFilter& filter : {PixelFilter{FilterKind::box, {0.5f, 0.25f}},
+                                      {FilterKind::triangle, {2, 1.3f}},
+                                      {FilterKind::gaussian, {1.5f, 1.5f}, 0.7f},
+                                      {FilterKind::sinc, {4, 4}, 0.5f, 0, 0, 2.5f}}) {
+        file.details = {file.field.frame, filter, 0, 0, "", "", 0};
+        for (const char* name : {"a.exr", "a.txt"}) {
+            write(name, file);
+            expectSame(read(name), file);
+        }
+    }
+}
+
+TEST_F(FieldFiles, exrKeepsAlbedoNormalsAndSlopesOfTheirOwn) {
+    FieldFile file = richField();
+    synthetic::Random random(4);
+    const auto vector = [&] { return glm::vec3(random.uniform(), random.uniform(), random.uniform()); };
+    for (std::size_t i = 0; i < file.field.samples.size(); ++i)
+        file.field.auxiliary.push_back({vector(), vector()});
+    for (std::size_t i = 0; i < file.field.samples.size(); i += 7) file.field.samples[i].slope = 5 + float(i);
+    EXPECT_TRUE(hasOwnSlopes(file.field));
+    write("a.exr", file);
+    expectSame(read("a.exr"), file);
+    EXPECT_THROW(write("a.txt", file), Error);
+}
+
+TEST_F(FieldFiles, tlfrReadsItsHeaderByEitherNameAndInEverySpelling) {
+    for (const char* model : {"perspective", "affine"})
+        for (const std::string end : {"\n", " \r\n", "\n\n"}) {
+            std::string header;
+            for (const std::string& line :
+                 {std::string("Version 1.3"), std::string("Width 2"), std::string("Height 1"),
+                  std::string("Samples per pixel 2"), "Motion model: " + std::string(model),
+                  std::string("CoC coefficients (coc radius = C0/w+C1): -15.242497,19.053122"),
+                  std::string("Encoding = text"),
+                  std::string("x,y,z/w,w,u,v,t,r,g,b,a,mv_x,mv_y,mv_w,dwdx,dwdy")})
+                header += line + end;
+            test::writeText(dir_.file("a.header"), header);
+            test::writeText(dir_.file("a"), "0.25,0.5,9,2,0.1,-0.2,0.3,1,2,3,7,0,0,0,5,6\r\n"
+                                            "0.5, 0.75, 9, 4, 0, 0, 0, 0.5, 0.5, 0.5, 0, 0, 0, 0, 0, 0\n\n"
+                                            "1.5,0.25,0,inf,0,0,1e-60,0,0,1e60,0,0,0,0,0,0\n"
+                                            "1.75,0.125,0,-1,0,0,0,nan,0,0,0,1,0,-2,0,0");
+            for (const char* name : {"a", "a.header"}) {
+                const FieldFile file = read(name);
+                EXPECT_EQ(file.format, FieldFormat::tlfrText);
+                EXPECT_EQ(file.field.bounds, (Rect{0, 0, 2, 1}));
+                EXPECT_EQ(file.field.frame, file.field.bounds);
+                EXPECT_EQ(file.details.film, file.field.bounds);
+                EXPECT_FALSE(file.details.filter);
+                EXPECT_EQ(file.movingSamples, 1u);
+                const LightFieldSample &s = file.field.samples[0], &far = file.field.samples[2];
+                EXPECT_EQ(s.x, 0.25f);
+                EXPECT_EQ(s.v, -0.2f);
+                EXPECT_EQ(s.b, 3);
+                EXPECT_EQ(s.alpha, 1);
+                EXPECT_EQ(s.slope, -15.242497f / 2 + 19.053122f);
+                EXPECT_EQ(far.alpha, 0);
+                EXPECT_EQ(far.slope, 19.053122f);
+                EXPECT_EQ(far.t, 0);
+                EXPECT_TRUE(std::isinf(far.b));
+                EXPECT_TRUE(std::isnan(file.field.samples[3].r));
+            }
+        }
+}
+
+TEST_F(FieldFiles, linesThatTlfrDoesNotKnowAreToldOf) {
+    FieldFile file = richField();
+    write("a.bin", file);
+    test::writeText(dir_.file("a.bin.header"), test::readText(dir_.file("a.bin.header")) + "made by hand\n");
+    expectSame(read("a.bin"), file);
+    ASSERT_EQ(monitor_.warnings.size(), 1u);
+    EXPECT_THAT(monitor_.warnings[0], testing::HasSubstr("made by hand"));
+}
+
+TEST_F(FieldFiles, deepFilesOfOthersNeedLittle) {
+    DeepFile file;
+    file.halfChannel = "R";
+    file.write(dir_.file("a.exr"));
+    const FieldFile got = read("a.exr");
+    EXPECT_EQ(got.field.bounds, (Rect{0, 0, 5, 4}));
+    EXPECT_EQ(got.field.frame, got.field.bounds);
+    EXPECT_EQ(got.field.samplesPerPixel, 2);
+    const LightFieldSample& s = got.field.samples[2 * (5 + 3)];
+    EXPECT_EQ(s.x, 3.5f);
+    EXPECT_EQ(s.y, 1.5f);
+    EXPECT_EQ(s.r, 0.5f);
+    EXPECT_EQ(s.t, 0);
+    EXPECT_EQ(s.alpha, 1);
+    EXPECT_EQ(s.slope, 1);
+}
+
+TEST_F(FieldFiles, windowsOfDeepFilesAreFrameAndOverscan) {
+    DeepFile file;
+    file.header.dataWindow() = {{-3, 2}, {11, 9}};
+    file.header.displayWindow() = {{0, 0}, {9, 7}};
+    file.channels["motion.w"] = 1;
+    file.channels["motion.x"] = file.channels["motion.y"] = 0;
+    file.write(dir_.file("a.exr"));
+    const FieldFile got = read("a.exr");
+    EXPECT_EQ(got.field.bounds, (Rect{-3, 2, 12, 10}));
+    EXPECT_EQ(got.details.film, (Rect{0, 0, 10, 8}));
+    EXPECT_EQ(got.field.frame, (Rect{0, 2, 10, 8}));
+    EXPECT_EQ(got.movingSamples, 15u * 8 * 2);
+    EXPECT_EQ(got.field.samples[0].x, -2.5f);
+    EXPECT_EQ(got.field.samples[0].y, 2.5f);
+}
+
+TEST_F(FieldFiles, summaryCountsWhatSanitizeMeets) {
+    LightField field = richField().field;
+    field.samples[5].x = 1000;
+    const FieldSummary summary = summarize(field);
+    EXPECT_EQ(summary.outsidePixel, 1u);
+    EXPECT_EQ(summary.ranges[0].high, 1000);
+    EXPECT_EQ(summary.ranges[5].high, 3e38f);
+    EXPECT_EQ(summary.background,
+              std::uint64_t(std::count_if(field.samples.begin(), field.samples.end(),
+                                          [](const auto& s) { return s.w == INFINITY; })));
+    const FieldDefects met = sanitize(field);
+    EXPECT_GT(met.badDepth, 0u);
+    EXPECT_EQ(summary.defects.badDepth, met.badDepth);
+    EXPECT_EQ(summary.defects.total(), met.total());
+}
+
+} // namespace
+} // namespace slant
