@@ -18,7 +18,7 @@ struct InfoOptions {
 
 /// What the constants say of the camera, as far as they do.
 struct DerivedCamera {
-    std::optional<double> focusDistance;    ///< unset: at infinity, or a pinhole
+    std::optional<double> focusDistance;    ///< of a thin lens; unset: at infinity, or a pinhole
     std::optional<double> pixelsPerTangent; ///< these two where the lens radius is known
     std::optional<double> fovDegrees;       ///< of the film's shorter side
     std::optional<double> fNumber;          ///< where the focal length is known, too
@@ -28,8 +28,9 @@ DerivedCamera deriveCamera(const FieldFile& file) {
     const SlopeModel& slope = file.field.slopeModel;
     const FieldDetails& details = file.details;
     DerivedCamera camera;
-    if (slope.c1 < 0 && slope.c2 > 0) camera.focusDistance = -double(slope.c1) / double(slope.c2);
-    if (slope.c1 < 0 && details.lensRadius > 0) {
+    const bool thin = slope.c3 == 0 && slope.d1 == 0 && slope.d2 == 0 && slope.c1 < 0;
+    if (thin && slope.c2 > 0) camera.focusDistance = -double(slope.c1) / double(slope.c2);
+    if (thin && details.lensRadius > 0) {
         camera.pixelsPerTangent = -double(slope.c1) / double(details.lensRadius);
         const double half = std::min(details.film.width(), details.film.height()) / 2.0;
         camera.fovDegrees = 360 / std::numbers::pi * std::atan(half / *camera.pixelsPerTangent);
@@ -47,6 +48,14 @@ std::string rangeText(const ValueRange& range) {
     return range.empty() ? "no finite value" : fmt::format("{:.6g} to {:.6g}", range.low, range.high);
 }
 
+std::string slopeText(const LightField& field) {
+    const SlopeModel& m = field.slopeModel;
+    std::string text = fmt::format("{:.9g} / w + {:.9g}", m.c1, m.c2);
+    if (m.c3 != 0 || m.d1 != 0 || m.d2 != 0)
+        text = fmt::format("({} + {:.9g} / w^2) / (1 + {:.9g} / w + {:.9g} / w^2)", text, m.c3, m.d1, m.d2);
+    return text + " pixels per lens radius" + (hasOwnSlopes(field) ? "; samples have their own" : "");
+}
+
 void line(std::string_view name, const std::string& value) {
     fmt::print("  {:<15}  {}\n", name, oneLine(value));
 }
@@ -60,8 +69,7 @@ void printText(const std::string& path, const FieldFile& file, const FieldSummar
          fmt::format("{} in {} pixels, {} each, {}", field.samples.size(), sizeText(field.bounds),
                      field.samplesPerPixel,
                      field.auxiliary.empty() ? "without albedo and normals" : "with albedo and normals"));
-    line("slope", fmt::format("{:.9g} / w + {:.9g} pixels per lens radius{}", field.slopeModel.c1,
-                              field.slopeModel.c2, hasOwnSlopes(field) ? "; samples have their own" : ""));
+    line("slope", slopeText(field));
 
     const DerivedCamera camera = deriveCamera(file);
     const std::string unit = details.unit.empty() ? "" : " " + details.unit;
@@ -113,6 +121,9 @@ void printJson(const std::string& path, const FieldFile& file, const FieldSummar
         {"auxiliary", !field.auxiliary.empty()},
         {"c1", field.slopeModel.c1},
         {"c2", field.slopeModel.c2},
+        {"c3", field.slopeModel.c3},
+        {"d1", field.slopeModel.d1},
+        {"d2", field.slopeModel.d2},
         {"ownSlopes", hasOwnSlopes(field)},
         {"focusDistance", orNull(camera.focusDistance)},
         {"pixelsPerTangent", orNull(camera.pixelsPerTangent)},

@@ -31,6 +31,17 @@ constexpr std::uint64_t kLargestRatio = 1100;
 /// The least that a sample takes before compression: the required channels, three of them as halves at most.
 constexpr std::uint64_t kLeastSampleBytes = 22;
 
+struct SlopeConstant {
+    const char* name;
+    float SlopeModel::*value;
+    bool required; ///< unless every sample has a slope; else 0 where it is missing
+};
+constexpr std::array<SlopeConstant, 5> kSlopeConstants = {{{"slant:c1", &SlopeModel::c1, true},
+                                                           {"slant:c2", &SlopeModel::c2, true},
+                                                           {"slant:c3", &SlopeModel::c3, false},
+                                                           {"slant:d1", &SlopeModel::d1, false},
+                                                           {"slant:d2", &SlopeModel::d2, false}}};
+
 Imath::Box2i toBox(const Rect& r) {
     return {{r.x0, r.y0}, {r.x1 - 1, r.y1 - 1}};
 }
@@ -126,13 +137,13 @@ void readAttributes(const FileLocation& where, const Imf::Header& header, bool s
     if (const auto* version = find<Imf::IntAttribute>(header, "slant:version"))
         if (version->value() != kVersion)
             throw badInput(where, "slant:version {} is not {}", version->value(), kVersion);
-    for (const auto& [name, value] :
-         {std::pair("slant:c1", &file.field.slopeModel.c1), {"slant:c2", &file.field.slopeModel.c2}}) {
-        const auto* attribute = find<Imf::FloatAttribute>(header, name);
+    for (const SlopeConstant& constant : kSlopeConstants) {
+        const auto* attribute = find<Imf::FloatAttribute>(header, constant.name);
         if (attribute)
-            *value = attribute->value();
-        else if (!slopesGiven)
-            throw badInput(where, "has neither the float attribute '{}' nor a channel 'slope'", name);
+            file.field.slopeModel.*constant.value = attribute->value();
+        else if (constant.required && !slopesGiven)
+            throw badInput(where, "has neither the float attribute '{}' nor a channel 'slope'",
+                           constant.name);
     }
     for (auto i = header.begin(); i != header.end(); ++i) {
         const std::string name = i.name(), prefix = "slant:";
@@ -252,8 +263,9 @@ Imf::Header makeHeader(const LightField& field, const FieldDetails& details,
     for (const DeepChannel& channel : channels)
         header.channels().insert(channel.name, Imf::Channel(Imf::FLOAT));
     header.insert("slant:version", Imf::IntAttribute(kVersion));
-    header.insert("slant:c1", Imf::FloatAttribute(field.slopeModel.c1));
-    header.insert("slant:c2", Imf::FloatAttribute(field.slopeModel.c2));
+    for (const SlopeConstant& constant : kSlopeConstants)
+        if (const float value = field.slopeModel.*constant.value; constant.required || value != 0)
+            header.insert(constant.name, Imf::FloatAttribute(value));
     header.insert("slant:frame", Imf::Box2iAttribute(toBox(field.frame)));
     for (const auto& [name, value] : metadataOf(details)) {
         if (const auto* text = std::get_if<std::string>(&value))

@@ -91,8 +91,9 @@ void checkExtent(const FileLocation& location, const LightField& field, const Fi
     if (samples >= std::numeric_limits<std::uint32_t>::max())
         throw badInput(location, "{} samples are not fewer than 2^32 - 1", samples);
     const SlopeModel& slope = field.slopeModel;
-    if (!std::isfinite(slope.c1) || !std::isfinite(slope.c2))
-        throw badInput(location, "slope constants {} and {} are not finite", slope.c1, slope.c2);
+    for (const float constant : {slope.c1, slope.c2, slope.c3, slope.d1, slope.d2})
+        if (!std::isfinite(constant))
+            throw badInput(location, "a slope constant is not finite: {}", constant);
     if (slope.c1 > 0)
         throw badInput(
             location,

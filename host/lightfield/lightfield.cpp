@@ -68,6 +68,11 @@ bool hasOwnSlopes(const LightField& field) {
     return found;
 }
 
+bool isThinLens(const LightField& field) {
+    const SlopeModel& model = field.slopeModel;
+    return model.c3 == 0 && model.d1 == 0 && model.d2 == 0 && !hasOwnSlopes(field);
+}
+
 FieldDefects sanitize(LightField& field) {
     FieldDefects sum;
     std::mutex mutex;

@@ -47,6 +47,9 @@ struct LightField {
 /// Whether any sample's slope is not that of its depth.
 bool hasOwnSlopes(const LightField& field);
 
+/// Whether slopes are C1/w + C2 throughout.
+bool isThinLens(const LightField& field);
+
 /// What `sanitize` met; each count is of samples.
 struct FieldDefects {
     std::uint64_t nonFiniteRadiance = 0; ///< set to 0

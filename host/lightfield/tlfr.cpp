@@ -208,10 +208,10 @@ FieldFile readTlfr(const std::string& bodyPath, const std::string& headerPath, M
 
 void writeTlfr(const std::string& path, const LightField& field, const FieldDetails& details, bool text,
                Monitor& monitor) {
-    if (hasOwnSlopes(field))
+    if (!isThinLens(field))
         throw Error(
             ErrorCode::usage,
-            fmt::format("'{}': this field's slopes are no function of depth, which TLFR cannot say; write "
+            fmt::format("'{}': this field's slopes are not C1/w + C2, which is all that TLFR can say; write "
                         "deep OpenEXR",
                         path));
     AtomicFile body(path), header(path + ".header");

@@ -73,11 +73,11 @@ TEST_F(FieldErrors, tlfrHeaders) {
     headerFails("Width 2\nHeight 1", "Width 1000000\nHeight 1000000", "fewer than 2^32");
     headerFails("pixel 1", "pixel 70000", "70000 samples a pixel");
     headerFails("Width 2", "Width 3", "holds 2 samples; its header has 3");
-    headerFails("Width 2", "Width 200000", "holds 132 bytes; the 200000 samples of its header take at least");
+    headerFails("Width 2", "Width 200000", "holds 136 bytes; the 200000 samples of its header take at least");
     headerFails("affine", "quadratic", "quadratic");
     headerFails("-15,19", "-15", "two numbers");
     headerFails("-15,19", "nan,19", "two numbers");
-    headerFails("-15,19", "1e60,19", "not finite");
+    headerFails("-15,19", "1e60,19", "slope constant is not finite");
     headerFails("-15,19", "15,-19", "C1 = 15 is positive");
     headerFails("text", "ebcdic", "ebcdic");
     headerFails("text", "binary", "the 2 samples of its header take 128");

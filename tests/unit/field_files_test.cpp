@@ -35,8 +35,9 @@ void expectSame(const FieldFile& got, const FieldFile& expected) {
     EXPECT_EQ(got.field.bounds, expected.field.bounds);
     EXPECT_EQ(got.field.frame, expected.field.frame);
     EXPECT_EQ(got.field.samplesPerPixel, expected.field.samplesPerPixel);
-    EXPECT_EQ(got.field.slopeModel.c1, expected.field.slopeModel.c1);
-    EXPECT_EQ(got.field.slopeModel.c2, expected.field.slopeModel.c2);
+    for (float SlopeModel::*constant :
+         {&SlopeModel::c1, &SlopeModel::c2, &SlopeModel::c3, &SlopeModel::d1, &SlopeModel::d2})
+        EXPECT_EQ(got.field.slopeModel.*constant, expected.field.slopeModel.*constant);
     EXPECT_TRUE(test::sameBits(got.field, expected.field));
     EXPECT_EQ(got.details.film, expected.details.film);
     EXPECT_EQ(metadataOf(got.details), metadataOf(expected.details));
@@ -80,6 +81,8 @@ TEST_F(FieldFiles, exrKeepsAlbedoNormalsAndSlopesOfTheirOwn) {
         file.field.auxiliary.push_back({vector(), vector()});
     for (std::size_t i = 0; i < file.field.samples.size(); i += 7) file.field.samples[i].slope = 5 + float(i);
     EXPECT_TRUE(hasOwnSlopes(file.field));
+    file.field.slopeModel.c3 = 0.5f;
+    file.field.slopeModel.d2 = -0.25f;
     write("a.exr", file);
     expectSame(read("a.exr"), file);
     EXPECT_THROW(write("a.txt", file), Error);
