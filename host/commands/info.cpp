@@ -2,6 +2,7 @@
 #include "commands/commands.h"
 #include "commands/picture_job.h"
 #include "lightfield/field_file.h"
+#include "lightfield/refocus.h"
 #include "lightfield/summary.h"
 
 #include <cmath>
@@ -29,7 +30,7 @@ DerivedCamera deriveCamera(const FieldFile& file) {
     const FieldDetails& details = file.details;
     DerivedCamera camera;
     const bool thin = slope.c3 == 0 && slope.d1 == 0 && slope.d2 == 0 && slope.c1 < 0;
-    if (thin && slope.c2 > 0) camera.focusDistance = -double(slope.c1) / double(slope.c2);
+    camera.focusDistance = focusDistance(slope);
     if (thin && details.lensRadius > 0) {
         camera.pixelsPerTangent = -double(slope.c1) / double(details.lensRadius);
         const double half = std::min(details.film.width(), details.film.height()) / 2.0;

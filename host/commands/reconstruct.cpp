@@ -1,10 +1,14 @@
-// slant reconstruct: a picture from a light field in a file.
+// slant reconstruct: pictures from a light field in a file, through the traced lens or another.
 #include "base/parallel.h"
 #include "commands/commands.h"
+#include "commands/focus_options.h"
 #include "commands/picture_job.h"
 #include "commands/reconstruction.h"
+#include "commands/stats_file.h"
 #include "lightfield/field_file.h"
+#include "lightfield/refocus.h"
 #include "reconstruct/plan.h"
+#include "report/work_monitor.h"
 
 #include <memory>
 
@@ -13,6 +17,7 @@ namespace {
 
 struct FromFileOptions {
     PictureOptions picture;
+    FocusOptions focus;
     std::optional<std::uint64_t> seed; ///< unset: the field's
     bool compareWithCpu = false;
 };
@@ -25,29 +30,100 @@ FieldFile readFieldFor(const std::string& path, Monitor& monitor) {
     return file;
 }
 
-void runReconstruct(FromFileOptions options) {
+/// One run: a field, and the pictures that are made of it.
+class Job {
+public:
+    Job(const FromFileOptions& options, TerminalMonitor& monitor)
+        : options_(options), backend_(options.picture.common.device, options.picture.common.threads),
+          file_(readFieldFor(options.picture.input, monitor)), distances_(focusDistances(options.focus)) {
+        CommonOptions& common = options_.picture.common;
+        common.seed = options_.seed.value_or(file_.details.seed);
+        reconstruction_ = reconstructOptions(common, file_.details.filter.value_or(PixelFilter()), backend_);
+        reconstruction_.lensScale = lensScale(options_.focus, file_.details);
+        checkBudget(file_.field.frame, file_.field.samplesPerPixel, reconstruction_);
+        if (reconstruction_.lensScale > 1)
+            monitor.warn(
+                fmt::format("a lens {:.4g} times as wide as the traced one is extrapolation: what only its "
+                            "rim would see is missing",
+                            reconstruction_.lensScale));
+    }
+
+    void run(TerminalMonitor& monitor, const Stopwatch& watch) {
+        if (distances_.size() == 1) return single(monitor, watch);
+        const std::uint64_t share = file_.field.frame.area() * std::uint64_t(reconstruction_.outputsPerPixel);
+        monitor.beginStage("focus pull", distances_.size() * share, "outputs");
+        WorkMonitor frames(monitor);
+        for (std::size_t i = 0; i < distances_.size(); ++i) {
+            frames.beginShare(share, "");
+            const Stopwatch frameWatch;
+            PictureOptions picture = options_.picture;
+            picture.output = numbered(picture.output, i + 1);
+            picture.png = numbered(picture.png, i + 1);
+            picture.common.statsPath.clear();
+            ReconstructReport report;
+            const Image image = make(distances_[i], frames, report);
+            writeOutputs(picture, image, details(distances_[i], report), report.stages, frameWatch.seconds());
+        }
+        frames.endShare();
+        monitor.endStage();
+        if (const std::string& path = options_.picture.common.statsPath; !path.empty())
+            writeStats(path, monitor.stages(), watch.seconds(),
+                       {{"field", options_.picture.input}, {"frames", distances_.size()}});
+    }
+
+private:
+    void single(TerminalMonitor& monitor, const Stopwatch& watch) {
+        ReconstructReport report;
+        const Image image = make(distances_[0], monitor, report);
+        writeOutputs(options_.picture, image, details(distances_[0], report),
+                     stagesOf(monitor.stages(), report), watch.seconds());
+    }
+
+    Image make(std::optional<double> distance, Monitor& monitor, ReconstructReport& report) {
+        LightField other;
+        if (distance) other = refocused(file_.field, *distance);
+        LightField& field = distance ? other : file_.field;
+        const FieldDefects defects = sanitize(field);
+        if (distance || reconstruction_.lensScale > 1)
+            if (const int missing = missingOverscanPx(field, reconstruction_.lensScale); missing > 0)
+                monitor.warn(
+                    fmt::format("blur reaches {} pixels beyond the samples: borders may lack what enters "
+                                "from farther out",
+                                missing));
+        slopeModel_ = field.slopeModel;
+        Image image = reconstruct(backend_, field, reconstruction_, options_.compareWithCpu, monitor, report);
+        image.displayWindow = file_.details.film;
+        warnOf(defects, report.emptyPixels, monitor);
+        return image;
+    }
+
+    nlohmann::ordered_json details(std::optional<double> distance, const ReconstructReport& report) const {
+        nlohmann::ordered_json json = {{"field", options_.picture.input}, {"scene", file_.details.source}};
+        addDetails(json, options_.picture.common, file_.field, backend_, report);
+        json["c1"] = slopeModel_.c1;
+        json["c2"] = slopeModel_.c2;
+        if (distance) json["focusDistance"] = *distance;
+        if (reconstruction_.lensScale != 1) json["apertureScale"] = reconstruction_.lensScale;
+        return json;
+    }
+
+    FromFileOptions options_;
+    Backend backend_;
+    FieldFile file_;
+    std::vector<std::optional<double>> distances_;
+    ReconstructOptions reconstruction_;
+    SlopeModel slopeModel_; ///< of the last picture
+};
+
+void runReconstruct(const FromFileOptions& options) {
     const Stopwatch watch;
-    CommonOptions& common = options.picture.common;
+    const CommonOptions& common = options.picture.common;
     checkMethodOptions(common);
+    checkFocusOptions(options.focus, common.method);
     const ThreadLimit threads(common.threads);
     TerminalMonitor monitor(TerminalMonitor::styleOfStderr(common.quiet));
     checkOutputs(options.picture);
-    Backend backend(common.device, common.threads);
-    FieldFile file = readFieldFor(options.picture.input, monitor);
-    LightField& field = file.field;
-    common.seed = options.seed.value_or(file.details.seed);
-    const ReconstructOptions reconstruction =
-        reconstructOptions(common, file.details.filter.value_or(PixelFilter()), backend);
-    checkBudget(field.frame, field.samplesPerPixel, reconstruction);
-    const FieldDefects defects = sanitize(field);
-
-    ReconstructReport report;
-    Image image = reconstruct(backend, field, reconstruction, options.compareWithCpu, monitor, report);
-    image.displayWindow = file.details.film;
-    warnOf(defects, report.emptyPixels, monitor);
-    nlohmann::ordered_json details = {{"field", options.picture.input}, {"scene", file.details.source}};
-    addDetails(details, common, field, backend, report);
-    writeOutputs(options.picture, image, details, stagesOf(monitor.stages(), report), watch.seconds());
+    Job(options, monitor).run(monitor, watch);
 }
 
 } // namespace
@@ -63,6 +139,7 @@ void addReconstruct(CLI::App& program) {
         ->required()
         ->type_name("FILE.exr");
     addImageOptions(*command, options->picture);
+    addFocusOptions(*command, options->focus);
     addReconstructionOptions(*command, options->picture.common);
     addNumber<std::uint64_t>(*command, "--seed", options->seed, 0, std::numeric_limits<std::uint64_t>::max(),
                              "of the output pattern (default: the field's)");

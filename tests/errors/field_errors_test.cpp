@@ -197,6 +197,39 @@ TEST_F(FieldErrors, wrongNamesAreUsageErrorsBeforeTracing) {
     EXPECT_EQ(runSlant({"sample", scene, "-o", dir_.file("no/a.exr"), "--spp", "60000"}).status, 5);
 }
 
+TEST_F(FieldErrors, lensesThatCannotBe) {
+    FieldFile file = test::richField();
+    SilentMonitor monitor;
+    file.details.focalLength = 0;
+    writeField(dir_.file("a.exr"), file.field, file.details, monitor);
+    const auto reconstruct = [&](std::vector<std::string> more) {
+        std::vector<std::string> words = {
+            "reconstruct", dir_.file("a.exr"), "-o", dir_.file("out.exr"), "--device", "cpu", "--out-spp",
+            "1",           "--quiet"};
+        words.insert(words.end(), more.begin(), more.end());
+        return runSlant(words);
+    };
+    for (const auto& [words, part] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+             {{"--f-stop", "4"}, "--f-stop needs a field that says its focal length"},
+             {{"--pinhole", "--f-stop", "4"}, "--f-stop"},
+             {{"--focus-from", "1"}, "--focus-from"},
+             {{"--focus-from", "1", "--focus-to", "2", "--frames", "1"}, "--frames"},
+             {{"--focus-distance", "0"}, "--focus-distance"},
+             {{"--focus-distance", "3", "--method", "box"}, "method box"},
+             {{"--focus-distance", "3", "--method", "window"}, "method window"},
+             {{"--pinhole", "--method", "box"}, "method box"}}) {
+        const test::ProgramResult result = reconstruct(words);
+        EXPECT_EQ(result.status, 2) << result.err;
+        EXPECT_EQ(result.errorLines(), 1) << result.err;
+        EXPECT_THAT(result.err, HasSubstr(part));
+    }
+    EXPECT_THAT(reconstruct({"--aperture-scale", "1.5"}).err, HasSubstr("1.5 times as wide"));
+    file.details.focalLength = 0.9f; // f/1.5
+    writeField(dir_.file("a.exr"), file.field, file.details, monitor);
+    EXPECT_THAT(reconstruct({"--f-stop", "0.5"}).err, HasSubstr("3 times as wide"));
+    EXPECT_THAT(runSlant({"info", dir_.file("a.exr")}).out, HasSubstr("f-number         1.5\n"));
+}
+
 TEST_F(FieldErrors, invalidSamplesAreCountedAndLeftOut) {
     SilentMonitor monitor;
     const FieldFile file = test::richField();

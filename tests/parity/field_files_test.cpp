@@ -47,6 +47,32 @@ TEST_P(ThroughFiles, sampleAndReconstructIsRender) {
     }
 }
 
+TEST_P(ThroughFiles, everyFormatRefocusesToTheSameBits) {
+    const std::string scene = SLANT_SOURCE_DIR "/scenes/spheres.pbrt";
+    const std::vector<std::string> picturing = {"--out-spp", "8",       "--method", "full",
+                                                "--float",   "--quiet", "--device", GetParam()};
+    std::vector<Image> last;
+    for (const std::string field : {"field.exr", "field.bin"}) {
+        run({"sample", scene, "-o", dir_.file(field)},
+            {"--crop", "201,242,101,128", "--spp", "2", "--quiet"});
+        run({"reconstruct", dir_.file(field), "-o", dir_.file("pull.exr"), "--focus-from", "7", "--focus-to",
+             "20", "--frames", "3", "--stats", dir_.file("pull.json")},
+            picturing);
+        run({"reconstruct", dir_.file(field), "-o", dir_.file("one.exr"), "--focus-distance", "20"},
+            picturing);
+        run({"reconstruct", dir_.file(field), "-o", dir_.file("narrow.exr"), "--aperture-scale", "0.5"},
+            picturing);
+        EXPECT_TRUE(picture("one.exr").pixels == picture("pull-0003.exr").pixels);
+        EXPECT_FALSE(picture("one.exr").pixels == picture("pull-0002.exr").pixels);
+        EXPECT_FALSE(picture("one.exr").pixels == picture("narrow.exr").pixels);
+        last.push_back(picture("one.exr"));
+    }
+    EXPECT_TRUE(last[0].pixels == last[1].pixels);
+    EXPECT_EQ(readExr(dir_.file("pull-0001.exr")).metadata.at("slant:focusDistance"),
+              (decltype(Metadata().begin()->second)(7.f)));
+    EXPECT_NE(test::readText(dir_.file("pull.json")).find("\"frames\": 3"), std::string::npos);
+}
+
 INSTANTIATE_TEST_SUITE_P(Devices, ThroughFiles, testing::Values("cpu", "auto"),
                          [](const auto& device) { return std::string(device.param); });
 

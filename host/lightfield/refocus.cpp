@@ -1,0 +1,68 @@
+#include "lightfield/refocus.h"
+
+#include "base/error.h"
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+namespace slant {
+
+std::optional<double> focusDistance(const SlopeModel& model) {
+    const bool thin = model.c3 == 0 && model.d1 == 0 && model.d2 == 0;
+    if (!thin || !(model.c1 < 0) || !(model.c2 > 0)) return {};
+    return -double(model.c1) / double(model.c2);
+}
+
+LightField refocused(LightField field, double distance) {
+    if (!(distance > 0))
+        throw Error(ErrorCode::usage, fmt::format("a focus distance of {} is not positive", distance));
+    if (field.slopeModel.c1 == 0)
+        throw Error(ErrorCode::usage, "the field was traced through a pinhole: everything is in focus");
+    if (!isThinLens(field))
+        throw Error(ErrorCode::usage,
+                    "the field is not that of a thin lens: its slopes are not C1/w + C2, and "
+                    "what another focus would make of them is not known");
+    SlopeModel model = field.slopeModel;
+    model.c2 = float(-double(model.c1) / distance);
+    const float change = model.c2 - field.slopeModel.c2;
+    field.slopeModel = model;
+    parallelFor(0, field.samples.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            LightFieldSample& s = field.samples[i];
+            s.x += change * s.u;
+            s.y += change * s.v;
+            s.slope = model(s.w);
+        }
+    });
+    return field;
+}
+
+int missingOverscanPx(const LightField& field, float lensScale) {
+    const Rect &frame = field.frame, &bounds = field.bounds;
+    const std::size_t rowSamples = std::size_t(bounds.width()) * std::size_t(field.samplesPerPixel);
+    float missing = 0;
+    std::mutex mutex;
+    parallelFor(std::size_t(frame.y0 - bounds.y0), std::size_t(frame.y1 - bounds.y0), 1,
+                [&](std::size_t first, std::size_t last) {
+                    float here = 0;
+                    for (std::size_t i = first * rowSamples; i < last * rowSamples; ++i) {
+                        const LightFieldSample& s = field.samples[i];
+                        const float radius = std::abs(s.slope) * lensScale;
+                        const glm::vec2 p = glm::vec2(s.x, s.y) - s.slope * glm::vec2(s.u, s.v);
+                        if (!std::isfinite(radius) || !std::isfinite(p.x + p.y)) continue;
+                        // A point of the frame that is spread so far has neighbours spread as far.
+                        if (p.x < float(frame.x0) || p.x > float(frame.x1)) continue;
+                        if (p.y < float(frame.y0) || p.y > float(frame.y1)) continue;
+                        here = std::max({here, float(bounds.x0) - (p.x - radius),
+                                         float(bounds.y0) - (p.y - radius), p.x + radius - float(bounds.x1),
+                                         p.y + radius - float(bounds.y1)});
+                    }
+                    const std::lock_guard lock(mutex);
+                    missing = std::max(missing, here);
+                });
+    return int(std::ceil(std::min(missing, 1e6f)));
+}
+
+} // namespace slant
