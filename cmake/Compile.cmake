@@ -24,7 +24,7 @@ function(slant_compile_options target)
         target_compile_options(${target} PUBLIC -fsanitize=${SLANT_SANITIZE} -fno-omit-frame-pointer
             -fno-sanitize-recover=all)
         # GCC's uninitialized analysis misjudges instrumented code (std::regex is one case); release has it on.
-        target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized)
+        target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
         target_link_options(${target} PUBLIC -fsanitize=${SLANT_SANITIZE})
         if(SLANT_SANITIZE STREQUAL "thread")
             # oneTBB's templates would come out half instrumented; the file tells of their order itself.

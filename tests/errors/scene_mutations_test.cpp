@@ -1,10 +1,10 @@
 // Random damage to a valid scene and to valid PLY files: the readers succeed or throw Error. The seeds are
 // fixed; a failure names its seed.
+#include "support/damage.h"
 #include "support/fuzz_targets.h"
 #include "support/ply_text.h"
 
 #include <gtest/gtest.h>
-#include <random>
 
 namespace slant {
 namespace {
@@ -28,50 +28,8 @@ AreaLightSource "diffuse" "rgb L" [5 5 5] "bool twosided" true Shape "sphere"
 ObjectBegin "thing" Material "conductor" "float roughness" .2 Shape "disk" ObjectEnd ObjectInstance "thing"
 )";
 
-/// A few bytes flipped, replaced, inserted, removed or doubled, perhaps the end cut off.
-std::string damaged(std::string bytes, std::mt19937& random) {
-    const auto below = [&](std::size_t n) { return std::size_t(random()) % n; };
-    for (std::size_t edits = 1 + below(4); edits > 0 && !bytes.empty(); --edits) {
-        const std::size_t place = below(bytes.size()), length = std::min(1 + below(12), bytes.size() - place);
-        constexpr char kTelling[] = "\"[]#-.e9 \n\0\xff";
-        switch (below(6)) {
-        case 0:
-            bytes[place] = char(bytes[place] ^ (1 << below(8)));
-            break;
-        case 1:
-            bytes[place] = kTelling[below(sizeof kTelling - 1)];
-            break;
-        case 2:
-            bytes.insert(place, 1, kTelling[below(sizeof kTelling - 1)]);
-            break;
-        case 3:
-            bytes.erase(place, length);
-            break;
-        case 4:
-            bytes.insert(place, bytes.substr(below(bytes.size()), length));
-            break;
-        default:
-            if (below(4) == 0) bytes.resize(place);
-        }
-    }
-    return bytes;
-}
-
-/// Counts of variants that were read and refused.
-template <typename Target>
-std::pair<int, int> survive(Target target, const std::string& valid, int variants) {
-    EXPECT_TRUE(target(valid));
-    std::pair<int, int> counts{0, 0};
-    for (int seed = 0; seed < variants; ++seed) {
-        std::mt19937 random{unsigned(seed)};
-        SCOPED_TRACE(seed);
-        EXPECT_NO_THROW(++(target(damaged(valid, random)) ? counts.first : counts.second));
-    }
-    return counts;
-}
-
 TEST(SceneMutations, neverDoWorseThanAnError) {
-    const auto [read, refused] = survive(test::fuzzScene, kScene, 1000);
+    const auto [read, refused] = test::survive(test::fuzzScene, kScene, 1000);
     EXPECT_GT(read, 20); // the damage reaches more than the first check
     EXPECT_GT(refused, 500);
 }
@@ -79,7 +37,7 @@ TEST(SceneMutations, neverDoWorseThanAnError) {
 TEST(SceneMutations, neverBreakThePlyReader) {
     for (const auto format :
          {test::PlyFormat::ascii, test::PlyFormat::littleEndian, test::PlyFormat::bigEndian}) {
-        const auto [read, refused] = survive(test::fuzzPly, test::samplePly(format), 1000);
+        const auto [read, refused] = test::survive(test::fuzzPly, test::samplePly(format), 1000);
         EXPECT_GT(read, 20);
         EXPECT_GT(refused, 300);
     }
