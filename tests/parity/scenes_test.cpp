@@ -3,6 +3,7 @@
 #include "image/exr.h"
 #include "support/run_program.h"
 
+#include <algorithm>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -57,8 +58,13 @@ TEST_P(SceneParity, runsRepeat) {
     EXPECT_TRUE(once.pixels == render(kCorner, "1").pixels);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, SceneParity, testing::Values("spheres", "row", "lights", "foliage"),
-                         [](const auto& scene) { return std::string(scene.param); });
+INSTANTIATE_TEST_SUITE_P(Scenes, SceneParity,
+                         testing::Values("spheres", "row", "lights", "foliage", "row-dgauss", "row-fisheye"),
+                         [](const auto& scene) {
+                             std::string name = scene.param;
+                             std::ranges::replace(name, '-', '_');
+                             return name;
+                         });
 
 } // namespace
 } // namespace slant
