@@ -44,6 +44,7 @@ public:
     /// `raster` in pixels, y downwards, on the film or beside it; `square` in [0, 1)^2.
     CameraSample sample(glm::vec2 raster, glm::vec2 square) const;
 
+    /// Of the lens as a whole.
     SlopeModel slopeModel() const;
     /// Measures how well each rung of the ladder predicts trajectories of points from `nearDepth` to
     /// `farDepth` (may be infinite), and has samples carry slopes of the lowest one that is within the
@@ -78,8 +79,8 @@ private:
     glm::dvec2 filmCentre_;
     SlopeFit slopes_;
     SlopeRung rung_ = SlopeRung::filmRadius;
-    glm::dvec3 centre_{0}, right_{0}, down_{0},
-        forward_{0}; ///< world space: depth 0 on the axis; mm of lens space
+    // World space: the place of depth 0 on the axis, and a millimetre of lens space along its axes.
+    glm::dvec3 centre_{0}, right_{0}, down_{0}, forward_{0};
 };
 
 } // namespace slant

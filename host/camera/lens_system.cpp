@@ -162,6 +162,9 @@ double LensSystem::filmPosition(double focusDistanceMm, const FileLocation& wher
     if (!(film < rim))
         throw badInput(where, "focused at {:.6g} mm, the film would stand {:.4g} mm within the lens",
                        focusDistanceMm, film - rim);
+    if (!(film + focusDistanceMm > frontVertex()))
+        throw badInput(where, "the plane in focus, {:.6g} mm from the film, would lie within the lens",
+                       focusDistanceMm);
     return film;
 }
 

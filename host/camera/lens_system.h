@@ -66,7 +66,7 @@ public:
     double nearestFocus() const;
     /// Where the film must be for the plane at that distance from it to be in focus, by the principal planes
     /// and the focal length (as pbrt's thick-lens method). Throws Error(badInput) at `where` if there is no
-    /// such place behind the rear surface.
+    /// such place behind the rear surface, or if that plane lies within the lens.
     double filmPosition(double focusDistanceMm, const FileLocation& where) const;
 
 private:

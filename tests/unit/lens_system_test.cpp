@@ -208,6 +208,10 @@ TEST(LensSystem, refusesWhatFormsNoImage) {
     test::expectError(ErrorCode::badInput, "within the lens", [&] {
         rod.filmPosition(1e5, {"s.pbrt", 1, 1});
     });
+    const LensSystem window = wideOpen(lensOf("1e5 1 1.5 40\n1e5 900 1 40\n" + std::string(kSingle)));
+    test::expectError(ErrorCode::badInput,
+                      "the plane in focus, 500 mm from the film, would lie within the lens",
+                      [&] { window.filmPosition(500, {}); });
 }
 
 } // namespace
