@@ -131,7 +131,7 @@ Plane seen(const Plane& plane, int width, int height, const std::array<Sensitivi
     std::array<double, 2> weights{};
     for (std::size_t i = 0; i < 2; ++i) {
         const auto [a, b] = gaussians[i];
-        const auto gaussian = [=](double x) {
+        const auto gaussian = [=, b = b](double x) {
             return std::exp(-pi * pi * x * x / (b * pixelsPerDegree * pixelsPerDegree));
         };
         double sum = 0;

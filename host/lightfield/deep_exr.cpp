@@ -19,6 +19,7 @@
 #include <OpenEXR/ImfTestFile.h>
 #include <OpenEXR/ImfVersion.h>
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -26,6 +27,8 @@ namespace slant {
 namespace {
 
 constexpr int kVersion = 1;
+/// Behind the magic number and the version.
+constexpr std::uint64_t kHeaderStart = 8;
 /// Bytes that a compressed one can stand for (deflate), with room for the rest of the file.
 constexpr std::uint64_t kLargestRatio = 1100;
 /// The least that a sample takes before compression: the required channels, three of them as halves at most.
@@ -111,6 +114,56 @@ const Attribute* find(const Imf::Header& header, const std::string& name) {
     return header.findTypedAttribute<Attribute>(name.c_str());
 }
 
+void requireBytes(const InputFile& file, std::uint64_t pixels, std::uint64_t samples) {
+    if ((pixels * sizeof(unsigned) + samples * kLeastSampleBytes) / kLargestRatio > file.size())
+        throw badInput({file.path()}, "{} bytes cannot hold {} pixels and {} samples", file.size(), pixels,
+                       samples);
+}
+
+/// Little-endian, as OpenEXR stores them and as the machine has them.
+template <typename Number>
+Number readNumber(InputStream& stream) {
+    static_assert(std::endian::native == std::endian::little);
+    std::array<char, sizeof(Number)> bytes;
+    stream.read(bytes.data(), int(bytes.size()));
+    return std::bit_cast<Number>(bytes);
+}
+
+/// Bytes up to the next zero; those of names are fewer than 256.
+std::string readName(InputStream& stream) {
+    std::string name;
+    for (char c = 0; stream.read(&c, 1), c != 0; name += c)
+        if (name.size() == 255) throw Iex::InputExc("a name in the header does not end");
+    return name;
+}
+
+/// Throws unless every attribute of the header fits into the file: OpenEXR would allocate what it claims.
+void checkAttributeSizes(const InputFile& file) {
+    InputStream stream(file);
+    stream.seekg(kHeaderStart);
+    while (!readName(stream).empty()) {
+        readName(stream); // type
+        const int size = readNumber<std::int32_t>(stream);
+        if (size < 0 || std::uint64_t(size) > file.size() - stream.tellg())
+            throw Iex::InputExc("an attribute is longer than the file");
+        stream.seekg(stream.tellg() + std::uint64_t(size));
+    }
+}
+
+/// The same for the scanlines, whose places begin at `table`.
+void checkScanlines(const InputFile& file, std::uint64_t table, int count) {
+    InputStream stream(file);
+    for (int line = 0; line < count; ++line) {
+        stream.seekg(table + sizeof(std::uint64_t) * std::uint64_t(line));
+        stream.seekg(readNumber<std::uint64_t>(stream));
+        readNumber<std::int32_t>(stream); // y
+        const auto counts = readNumber<std::uint64_t>(stream), packed = readNumber<std::uint64_t>(stream);
+        const auto unpacked = readNumber<std::uint64_t>(stream);
+        if (counts > file.size() || packed > file.size() || unpacked / kLargestRatio > packed)
+            throw Iex::InputExc("a scanline is longer than the file");
+    }
+}
+
 /// The header, before OpenEXR allocates anything of the sizes that it speaks of.
 Imf::Header readHeader(const InputFile& file) {
     InputStream stream(file);
@@ -118,17 +171,17 @@ Imf::Header readHeader(const InputFile& file) {
     if (!Imf::isOpenExrFile(stream, tiled, deep, multiPart) || !deep || tiled || multiPart)
         throw badInput({file.path()}, "is no light field: it is {}",
                        multiPart ? "a multi-part OpenEXR file" : "an OpenEXR file without deep scanlines");
-    constexpr std::uint64_t kVersionField = 4;
-    stream.seekg(kVersionField);
-    int version = 0;
-    char bytes[4];
-    stream.read(bytes, sizeof bytes);
-    for (int i = 0; i < 4; ++i) version |= int(static_cast<unsigned char>(bytes[i])) << (8 * i);
+    checkAttributeSizes(file);
+    stream.seekg(kHeaderStart - 4);
+    int version = readNumber<std::int32_t>(stream);
     Imf::Header header;
     header.readFrom(stream, version);
     header.sanityCheck();
     if (!header.hasType() || header.type() != Imf::DEEPSCANLINE)
         throw badInput({file.path()}, "is no light field: its type is not '{}'", Imf::DEEPSCANLINE);
+    const Imath::Box2i& window = header.dataWindow();
+    requireBytes(file, std::uint64_t(window.max.y) - std::uint64_t(window.min.y), 0);
+    checkScanlines(file, stream.tellg(), window.max.y - window.min.y + 1);
     return header;
 }
 
@@ -185,12 +238,6 @@ bool hasAny(const Imf::Header& header, const std::array<DeepChannel, count>& cha
     return std::any_of(channels.begin(), channels.end(), [&](const DeepChannel& channel) {
         return header.channels().findChannel(channel.name) != nullptr;
     });
-}
-
-void requireBytes(const InputFile& file, std::uint64_t pixels, std::uint64_t samples) {
-    if ((pixels * sizeof(unsigned) + samples * kLeastSampleBytes) / kLargestRatio > file.size())
-        throw badInput({file.path()}, "{} bytes cannot hold {} pixels and {} samples", file.size(), pixels,
-                       samples);
 }
 
 // ---------------------------------------------------------------- samples

@@ -181,8 +181,10 @@ std::string headerText(const LightField& field, const FieldDetails& details, boo
         header += fmt::format("slant:origin {} {}\n", field.bounds.x0, field.bounds.y0);
     if (field.frame != field.bounds) header += fmt::format("slant:frame {}\n", rectText(field.frame));
     if (details.film != field.frame) header += fmt::format("slant:film {}\n", rectText(details.film));
-    for (const auto& [name, value] : metadataOf(details))
-        header += std::visit([&](const auto& v) { return oneLine(fmt::format("{} {}", name, v)); }, value);
+    for (const auto& [name, value] : metadataOf(details)) {
+        const std::string spelt = std::visit([](const auto& v) { return fmt::to_string(v); }, value);
+        header += oneLine(name + ' ' + spelt);
+    }
     return header;
 }
 
