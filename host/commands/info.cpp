@@ -29,9 +29,9 @@ DerivedCamera deriveCamera(const FieldFile& file) {
     const SlopeModel& slope = file.field.slopeModel;
     const FieldDetails& details = file.details;
     DerivedCamera camera;
-    const bool thin = slope.c3 == 0 && slope.d1 == 0 && slope.d2 == 0 && slope.c1 < 0;
-    camera.focusDistance = focusDistance(slope);
-    if (thin && details.lensRadius > 0) {
+    const bool thin = isThinLens(file.field);
+    if (thin) camera.focusDistance = focusDistance(slope);
+    if (thin && slope.c1 < 0 && details.lensRadius > 0) {
         camera.pixelsPerTangent = -double(slope.c1) / double(details.lensRadius);
         const double half = std::min(details.film.width(), details.film.height()) / 2.0;
         camera.fovDegrees = 360 / std::numbers::pi * std::atan(half / *camera.pixelsPerTangent);
