@@ -1,5 +1,5 @@
 // Light field files that are wrong: one line that says what and where, and exit status 3.
-#include "lightfield/field_file.h"
+#include "lightfield/deep_exr.h"
 #include "support/deep_file.h"
 #include "support/expect_error.h"
 #include "support/field_samples.h"
@@ -195,6 +195,13 @@ TEST_F(FieldErrors, wrongNamesAreUsageErrorsBeforeTracing) {
         EXPECT_EQ(result.errorLines(), 1) << result.err;
     }
     EXPECT_EQ(runSlant({"sample", scene, "-o", dir_.file("no/a.exr"), "--spp", "60000"}).status, 5);
+}
+
+TEST_F(FieldErrors, aFullDiskIsNotOverlooked) {
+    const FieldFile file = test::richField();
+    SilentMonitor monitor;
+    expectError(ErrorCode::resources, "/dev/full",
+                [&] { writeDeepExr("/dev/full", file.field, file.details, monitor); });
 }
 
 TEST_F(FieldErrors, lensesThatCannotBe) {
