@@ -2,6 +2,7 @@
 
 #include "base/atomic_file.h"
 #include "base/input_file.h"
+#include "lightfield/deep_guard.h"
 #include "lightfield/deep_row.h"
 
 #include <ImathBox.h>
@@ -12,14 +13,12 @@
 #include <OpenEXR/ImfDeepScanLineOutputFile.h>
 #include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfTestFile.h>
 #include <OpenEXR/ImfVersion.h>
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -27,10 +26,6 @@ namespace slant {
 namespace {
 
 constexpr int kVersion = 1;
-/// Behind the magic number and the version.
-constexpr std::uint64_t kHeaderStart = 8;
-/// Bytes that a compressed one can stand for (deflate), with room for the rest of the file.
-constexpr std::uint64_t kLargestRatio = 1100;
 /// The least that a sample takes before compression: the required channels, three of them as halves at most.
 constexpr std::uint64_t kLeastSampleBytes = 22;
 
@@ -55,24 +50,6 @@ Rect toRect(const Imath::Box2i& b) {
     const auto clamped = [=](int v) { return std::clamp(v, -kLimit, kLimit); };
     return {clamped(b.min.x), clamped(b.min.y), clamped(b.max.x) + 1, clamped(b.max.y) + 1};
 }
-
-class InputStream final : public Imf::IStream {
-public:
-    explicit InputStream(const InputFile& file) : IStream(file.path().c_str()), file_(file) {}
-    bool read(char data[], int count) override {
-        if (position_ > file_.size() || std::uint64_t(count) > file_.size() - position_)
-            throw Iex::InputExc("it ends early");
-        file_.read(position_, data, std::size_t(count));
-        position_ += std::uint64_t(count);
-        return position_ < file_.size();
-    }
-    std::uint64_t tellg() override { return position_; }
-    void seekg(std::uint64_t position) override { position_ = position; }
-
-private:
-    const InputFile& file_;
-    std::uint64_t position_ = 0;
-};
 
 /// Remembers a failure, since OpenEXR's destructors swallow errors.
 class OutputStream final : public Imf::OStream {
@@ -120,59 +97,15 @@ void requireBytes(const InputFile& file, std::uint64_t pixels, std::uint64_t sam
                        samples);
 }
 
-/// Little-endian, as OpenEXR stores them and as the machine has them.
-template <typename Number>
-Number readNumber(InputStream& stream) {
-    static_assert(std::endian::native == std::endian::little);
-    std::array<char, sizeof(Number)> bytes;
-    stream.read(bytes.data(), int(bytes.size()));
-    return std::bit_cast<Number>(bytes);
-}
-
-/// Bytes up to the next zero; those of names are fewer than 256.
-std::string readName(InputStream& stream) {
-    std::string name;
-    for (char c = 0; stream.read(&c, 1), c != 0; name += c)
-        if (name.size() == 255) throw Iex::InputExc("a name in the header does not end");
-    return name;
-}
-
-/// Throws unless every attribute of the header fits into the file: OpenEXR would allocate what it claims.
-void checkAttributeSizes(const InputFile& file) {
-    InputStream stream(file);
-    stream.seekg(kHeaderStart);
-    while (!readName(stream).empty()) {
-        readName(stream); // type
-        const int size = readNumber<std::int32_t>(stream);
-        if (size < 0 || std::uint64_t(size) > file.size() - stream.tellg())
-            throw Iex::InputExc("an attribute is longer than the file");
-        stream.seekg(stream.tellg() + std::uint64_t(size));
-    }
-}
-
-/// The same for the scanlines, whose places begin at `table`.
-void checkScanlines(const InputFile& file, std::uint64_t table, int count) {
-    InputStream stream(file);
-    for (int line = 0; line < count; ++line) {
-        stream.seekg(table + sizeof(std::uint64_t) * std::uint64_t(line));
-        stream.seekg(readNumber<std::uint64_t>(stream));
-        readNumber<std::int32_t>(stream); // y
-        const auto counts = readNumber<std::uint64_t>(stream), packed = readNumber<std::uint64_t>(stream);
-        const auto unpacked = readNumber<std::uint64_t>(stream);
-        if (counts > file.size() || packed > file.size() || unpacked / kLargestRatio > packed)
-            throw Iex::InputExc("a scanline is longer than the file");
-    }
-}
-
 /// The header, before OpenEXR allocates anything of the sizes that it speaks of.
 Imf::Header readHeader(const InputFile& file) {
-    InputStream stream(file);
+    FileStream stream(file);
     bool tiled = false, deep = false, multiPart = false;
     if (!Imf::isOpenExrFile(stream, tiled, deep, multiPart) || !deep || tiled || multiPart)
         throw badInput({file.path()}, "is no light field: it is {}",
                        multiPart ? "a multi-part OpenEXR file" : "an OpenEXR file without deep scanlines");
-    checkAttributeSizes(file);
-    stream.seekg(kHeaderStart - 4);
+    checkAttributes(file);
+    stream.seekg(kVersionPlace);
     int version = readNumber<std::int32_t>(stream);
     Imf::Header header;
     header.readFrom(stream, version);
@@ -365,7 +298,7 @@ FieldFile readDeepExr(const std::string& path, Monitor& monitor) {
         checkExtent(where, field, result.details);
         requireBytes(input, field.bounds.area(), field.bounds.area());
 
-        InputStream stream(input);
+        FileStream stream(input);
         Imf::DeepScanLineInputFile file(stream);
         field.samplesPerPixel = readSamplesPerPixel(input, file, field.bounds);
         checkExtent(where, field, result.details);
