@@ -17,12 +17,23 @@ float axisWeight(int tableBegin, int tableLength, int offset, int q) {
     return index >= tableLength ? 0.0 : texelFetch(weights, tableBegin + index).x;
 }
 
-vec4 weighted(vec4 samp, ivec2 offset) {
+vec4 weighted(vec4 samp, float weight) {
+    return vec4(weight * samp.x, weight * samp.y, weight * samp.z, weight);
+}
+
+vec4 filtered(vec4 samp, ivec2 offset) {
     if (samp.w < 0.0) return vec4(0.0);
     const int code = int(samp.w);
-    const float weight = axisWeight(0, push.tableLength.x, offset.x, code / kSubpixels) *
-                         axisWeight(push.tableLength.x, push.tableLength.y, offset.y, code % kSubpixels);
-    return vec4(weight * samp.x, weight * samp.y, weight * samp.z, weight);
+    return weighted(samp, axisWeight(0, push.tableLength.x, offset.x, code / kSubpixels) *
+                              axisWeight(push.tableLength.x, push.tableLength.y, offset.y, code % kSubpixels));
+}
+
+/// A sample that stands for a group.
+vec4 filteredGroup(vec4 samp, ivec2 offset) {
+    const int means = push.tableLength.x + push.tableLength.y;
+    const float weight = texelFetch(weights, means + abs(offset.x)).x *
+                         texelFetch(weights, means + push.reach.x + 1 + abs(offset.y)).x;
+    return weighted(samp, float(push.groupSize) * weight);
 }
 
 void main() {
@@ -34,11 +45,19 @@ void main() {
     vec4 sum = imageLoad(film, place);
     for (int block = push.firstPlane; block < end; block += kFilmBlock) {
         vec4 part = vec4(0.0);
-        for (int k = block; k < min(block + kFilmBlock, end); ++k)
+        for (int group = block; group < min(block + kFilmBlock, end); group += push.groupSize)
             for (int dy = -reach.y; dy <= reach.y; ++dy) {
-                const int row = (k * size.y + pixel.y + reach.y + dy) * size.x + pixel.x + reach.x;
-                for (int dx = -reach.x; dx <= reach.x; ++dx)
-                    part += weighted(texelFetch(dense, row + dx), ivec2(dx, dy));
+                const int row = (group * size.y + pixel.y + reach.y + dy) * size.x + pixel.x + reach.x;
+                for (int dx = -reach.x; dx <= reach.x; ++dx) {
+                    const vec4 first = texelFetch(dense, row + dx);
+                    if (first.w == kWholePixel) {
+                        part += filteredGroup(first, ivec2(dx, dy));
+                        continue;
+                    }
+                    part += filtered(first, ivec2(dx, dy));
+                    for (int k = 1; k < push.groupSize; ++k)
+                        part += filtered(texelFetch(dense, row + dx + k * size.x * size.y), ivec2(dx, dy));
+                }
             }
         sum += part;
     }

@@ -7,10 +7,12 @@
 #include "lib/grid.glsl"
 
 layout(local_size_x = 64) in;
+layout(set = 0, binding = 6) uniform utextureBuffer pattern;
 layout(set = 0, binding = 7, rgba32f) uniform writeonly imageBuffer dense;
 layout(set = 0, binding = 8, r32ui) uniform uimageBuffer counters;
 layout(set = 0, binding = 9, r32ui) uniform writeonly uimageBuffer visibilityList;
 layout(set = 0, binding = 10, r32ui) uniform writeonly uimageBuffer overflowList;
+layout(set = 0, binding = 11) uniform utextureBuffer todo; // lists: tile x, y, lens group, list
 
 struct Sweep {
     bool running;
@@ -40,17 +42,18 @@ bool hides(Sweep sweep, Brick brick) {
 #include "lib/search.glsl"
 
 void main() {
-    // The grid of workgroups is (tiles x parts of a list) x tiles x lens groups: nothing is divided, which lavapipe does
-    // lane by lane, and workgroups that share a list follow one another.
+    // Workgroups that share a list follow one another; nothing is divided, which lavapipe does lane by lane.
     const OutputLayout outputs = push.outputs;
     const GridLayout grid = push.grid;
     const int groupBits = push.groupBits; // 2^groupBits outputs of a pixel share a list
-    const uint group = gl_WorkGroupID.z;
-    const uvec2 tile = uvec2(gl_WorkGroupID.x >> groupBits, gl_WorkGroupID.y);
-    const uint list = (group * uint(outputs.tileCount.y) + tile.y) * uint(outputs.tileCount.x) + tile.x;
+    const uint workgroup = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    if (workgroup >> groupBits >= push.count) return;
+    const uvec4 item = texelFetch(todo, int(workgroup >> groupBits));
+    const uvec2 tile = item.xy;
+    const uint group = item.z, list = item.w;
     // Of the 64 << groupBits outputs of this list: eight neighbouring lanes take two lens positions of a square of two
     // by two pixels; of the ways to split a tile and a lens group this keeps their candidates most alike.
-    const uint place = bitfieldExtract(gl_WorkGroupID.x, 0, groupBits) << 6 | gl_LocalInvocationIndex;
+    const uint place = bitfieldExtract(workgroup, 0, groupBits) << 6 | gl_LocalInvocationIndex;
     const int pairBits = min(groupBits, 1), restBits = groupBits - pairBits;
     const uint pair = bitfieldExtract(place, 0, pairBits), quad = bitfieldExtract(place, pairBits, 2);
     const uint rest = bitfieldExtract(place, pairBits + 2, restBits), block = place >> (groupBits + 2);

@@ -8,6 +8,7 @@
 #include "lib/surface.glsl"
 
 layout(local_size_x = 64) in;
+layout(set = 0, binding = 6) uniform utextureBuffer pattern;
 layout(set = 0, binding = 7) uniform utextureBuffer slots;
 layout(set = 0, binding = 8, rgba32f) uniform writeonly imageBuffer dense;
 layout(set = 0, binding = 9, r32ui) uniform uimageBuffer counters;

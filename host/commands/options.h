@@ -21,7 +21,7 @@ struct CommonOptions {
     std::optional<Rect> crop; ///< pixels; unset: what the scene asks for
     // How to reconstruct.
     int outSpp = 128; ///< output samples a pixel
-    Method method = Method::full;
+    Method method = Method::ladder;
     WindowOptions window;
     std::string windowOption;                           ///< one of them that was given; empty: none
     std::string device = "auto";                        ///< auto, cpu, or part of a device's name

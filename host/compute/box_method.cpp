@@ -14,7 +14,7 @@ void boxMethod(ComputeRun& run) {
         Buffer dense(run.device, TexelFormat::rgba32f, samples.samples.size());
         dense.upload(std::span<const vec4>(samples.samples));
         run.observe("dense", dense);
-        run.filmPass.accumulate(run.commands, dense, band, field.samplesPerPixel);
+        run.filmPass.accumulate(run.commands, dense, band, field.samplesPerPixel, 1);
     }
     timer.bytes = run.device.peakBytes();
 }

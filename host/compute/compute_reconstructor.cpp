@@ -10,7 +10,8 @@ namespace slant {
 namespace {
 
 /// In the order of Method.
-constexpr std::array<ComputeMethod*, kMethodCount> kMethods = {boxMethod, windowMethod, fullMethod};
+constexpr std::array<ComputeMethod*, kMethodCount> kMethods = {boxMethod, windowMethod, fullMethod,
+                                                               fullMethod};
 
 } // namespace
 

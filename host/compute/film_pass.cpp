@@ -12,15 +12,17 @@ FilmPass::FilmPass(Device& device, const FilmBuffer& film)
     sums_.upload(std::span<const vec4>(film.sums()));
 }
 
-void FilmPass::accumulate(CommandList& commands, const Buffer& dense, const Band& band, int planes) {
+void FilmPass::accumulate(CommandList& commands, const Buffer& dense, const Band& band, int planes,
+                          int groupSize) {
     FilterPush push{};
     push.regionSize = ivec2(band.region.width(), band.region.height());
     push.reach = table_.reach;
     push.tableLength = table_.length;
+    push.groupSize = groupSize;
     push.filmSize = ivec2(frame_.width(), frame_.height());
     push.firstRow = band.y0 - frame_.y0;
     push.rowCount = band.y1 - band.y0;
-    const int taps = (2 * table_.reach.x + 1) * (2 * table_.reach.y + 2);
+    const int taps = 2 * (2 * table_.reach.x + 1) * (2 * table_.reach.y + 2);
     const int most = std::max(1, kMaxLoopIterations / (taps * kFilmBlock)) * kFilmBlock;
     for (int first = 0; first < planes; first += most) {
         push.firstPlane = first;

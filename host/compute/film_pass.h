@@ -11,9 +11,8 @@ public:
     /// A film with the sums that `film` has.
     FilmPass(Device& device, const FilmBuffer& film);
 
-    /// As FilmBuffer::accumulate with whole blocks of kFilmBlock. Runs on `commands`, which must be empty,
-    /// and leaves it empty.
-    void accumulate(CommandList& commands, const Buffer& dense, const Band& band, int planes);
+    /// As FilmBuffer::accumulate. Runs on `commands`, which must be empty, and leaves it empty.
+    void accumulate(CommandList& commands, const Buffer& dense, const Band& band, int planes, int groupSize);
 
     void download(FilmBuffer& film) const;
 

@@ -1,10 +1,13 @@
-// Method `full` on the device: every output from the bins, with apparent surfaces told apart.
+// Methods `full` and `auto` on the device: outputs from the bins, with apparent surfaces told apart; of
+// `auto`, only those that the layer map cannot serve.
 #include "compute/compute_methods.h"
+#include "compute/layer_passes.h"
 #include "compute/output_passes.h"
 #include "reconstruct/cpu_chunk.h"
 #include "reconstruct/stage_timer.h"
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 
 namespace slant {
@@ -16,16 +19,23 @@ public:
         : run_(run), bins_(run.bin()),
           pattern_(makeOutputPattern(run.options.outputsPerPixel, largestSlope(bins_.grid),
                                      run.options.lensScale)),
-          listPasses_(run.device, pattern_), outputPasses_(run.device, pattern_) {}
+          listPasses_(run.device, pattern_.groups), outputPasses_(run.device, pattern_) {
+        if (run.options.method == Method::ladder) layerPasses_.emplace(run.device, pattern_);
+    }
 
     void fill() {
-        const Plan plan = planOutputs(run_.field.frame, run_.film.filter(), pattern_, run_.maxSamples);
+        const Rect& frame = run_.field.frame;
+        const float reach = mapReach(bins_.grid, run_.options.lensScale);
+        const int maxRows = layerPasses_ ? mapRows(frame, reach, run_.options.memoryBytes / 2)
+                                         : std::numeric_limits<int>::max();
+        const Plan plan = planOutputs(frame, run_.film.filter(), pattern_, run_.maxSamples, maxRows);
         const int groupSize = pattern_.groupSize();
         Buffer dense(run_.device, TexelFormat::rgba32f,
                      plan.bands.front().region.area() * std::uint64_t(plan.groupsPerChunk * groupSize));
 
         run_.monitor.beginStage("reconstruct", plan.outputs, "outputs");
-        for (const Band& band : plan.bands)
+        for (const Band& band : plan.bands) {
+            if (layerPasses_) makeMap(chooseMap(bins_.grid, band.region, reach, spreadPerPx(pattern_)));
             for (int group = 0; group < int(pattern_.groups.size()); group += plan.groupsPerChunk) {
                 OutputPush push{};
                 push.grid = bins_.grid;
@@ -39,46 +49,99 @@ public:
                 push.groupBits = pattern_.groupBits;
                 chunk(band, push, int(push.groupCount) * groupSize, dense);
             }
+        }
         run_.monitor.endStage();
     }
 
 private:
+    void makeMap(const MapLayout& layout) {
+        StageTimer timer(run_.report, "layer_map", "texels");
+        layerPasses_->makeMap(run_.commands, bins_, layout, [this](vec2 p) {
+            const Bins& bins = cpuBins();
+            std::vector<uint> bricks(bins.bricks.size());
+            std::iota(bricks.begin(), bricks.end(), 0u);
+            return resolveTexel({bins, bricks}, p, mapRadius(bins.grid));
+        });
+        timer.items = layerPasses_->heads().texels();
+        timer.bytes = run_.device.peakBytes();
+        run_.observe("layer_map.heads", layerPasses_->heads());
+        run_.observe("layer_map.layers", layerPasses_->layers());
+    }
+
+    /// What the layer map serves of a chunk, if there is one; the lists that are left: tile x, y, group,
+    /// list.
+    std::vector<uvec4> takeFromMap(const DeviceLists& lists, const OutputPush& push, const Buffer& dense) {
+        std::vector<uint> rungs(lists.start.texels() - 1, 0);
+        if (layerPasses_) {
+            const Buffer buffer(run_.device, TexelFormat::r32ui, rungs.size());
+            if (run_.observer) run_.commands.fill(dense, 0); // planes that nobody reads
+            layerPasses_->record(run_.commands, listPasses_, lists, push, buffer, dense);
+            run_.commands.run();
+            buffer.download(rungs);
+            run_.observe("rungs", buffer);
+        }
+        std::vector<uvec4> left;
+        uint list = 0;
+        for (uint group = 0; group < push.groupCount; ++group)
+            for (uint y = 0; y < uint(push.outputs.tileCount.y); ++y)
+                for (uint x = 0; x < uint(push.outputs.tileCount.x); ++x, ++list)
+                    if (rungs[list] == 0) left.emplace_back(x, y, group, list);
+        return left;
+    }
+
+    /// Outputs of some lists.
+    static std::uint64_t outputsOf(const std::vector<uvec4>& lists, const OutputPush& push) {
+        std::uint64_t pixels = 0;
+        for (const uvec4& list : lists) {
+            const ivec2 corner = kTileSize * ivec2(int(list.x), int(list.y));
+            const ivec2 size = glm::min(push.outputs.regionSize - corner, ivec2(kTileSize));
+            pixels += std::uint64_t(size.x * size.y);
+        }
+        return pixels << push.groupBits;
+    }
+
     void chunk(const Band& band, const OutputPush& push, int planes, Buffer& dense) {
         const std::uint64_t samples = band.region.area() * std::uint64_t(planes);
         ReconstructReport& report = run_.report;
         {
             StageTimer timer(report, "reconstruct", "outputs");
             const DeviceLists lists = listPasses_.run(run_.commands, bins_, push, 2 * bins_.grid.radiusPx);
+            run_.observe("lists.start", lists.start);
+            run_.observe("lists.bricks", lists.ids);
+            const std::vector<uvec4> left = takeFromMap(lists, push, dense);
             const OutputPasses::Result result =
-                outputPasses_.run(run_.commands, listPasses_, bins_, lists, push, dense);
+                outputPasses_.run(run_.commands, listPasses_, bins_, lists, left, push, dense);
             if (!result.overflowed.empty()) finishOnCpu(band, push, result.overflowed, dense);
+            report.layered += samples - outputsOf(left, push);
             report.visibility += result.visibility;
             report.widened += result.widened;
             report.holes += result.holes;
             report.overflowed += result.overflowed.size();
             report.outputs += timer.items = samples;
             timer.bytes = run_.device.peakBytes();
-            run_.observe("lists.start", lists.start);
-            run_.observe("lists.bricks", lists.ids);
             run_.observe("dense", dense, samples);
         }
         StageTimer timer(report, "pixel_filter", "outputs");
         timer.items = samples;
-        run_.filmPass.accumulate(run_.commands, dense, band, planes);
+        run_.filmPass.accumulate(run_.commands, dense, band, planes, pattern_.groupSize());
         run_.monitor.advance(samples);
     }
 
     /// The outputs with more candidates than a shader may loop over.
     void finishOnCpu(const Band& band, const OutputPush& push, const std::vector<uint>& indices,
                      Buffer& dense) {
+        CpuChunk cpu(cpuBins(), nullptr, pattern_, band, run_.options.seed, push.firstGroup, push.groupCount);
+        cpu.redo(indices, run_.report);
+        for (const uint index : indices)
+            dense.upload(std::span<const vec4>(&cpu.dense.samples[index], 1), index);
+    }
+
+    const Bins& cpuBins() {
         const LightField& field = run_.field;
         if (!cpuBins_)
             cpuBins_ = binSamples(field, outputRegion(field.frame, run_.film.filter()),
                                   kSearchRadii * emptyCircleRadius(field.samplesPerPixel));
-        CpuChunk cpu(*cpuBins_, pattern_, band, run_.options.seed, push.firstGroup, push.groupCount);
-        cpu.redo(indices, run_.report);
-        for (const uint index : indices)
-            dense.upload(std::span<const vec4>(&cpu.dense.samples[index], 1), index);
+        return *cpuBins_;
     }
 
     ComputeRun& run_;
@@ -86,6 +149,7 @@ private:
     OutputPattern pattern_;
     ListPasses listPasses_;
     OutputPasses outputPasses_;
+    std::optional<LayerPasses> layerPasses_;
     std::optional<Bins> cpuBins_;
 };
 

@@ -5,19 +5,19 @@
 namespace slant {
 namespace {
 
-Buffer uploadBoxes(Device& device, const OutputPattern& pattern) {
+Buffer uploadBoxes(Device& device, const std::vector<LensBox>& groups) {
     static_assert(sizeof(LensBox) == sizeof(vec4));
-    Buffer boxes(device, TexelFormat::rgba32f, pattern.groups.size());
-    boxes.upload(std::span(pattern.groups));
+    Buffer boxes(device, TexelFormat::rgba32f, groups.size());
+    boxes.upload(groups);
     return boxes;
 }
 
 } // namespace
 
-ListPasses::ListPasses(Device& device, const OutputPattern& pattern)
+ListPasses::ListPasses(Device& device, const std::vector<LensBox>& groups)
     : device_(device), count_(device, "list_count"), emit_(device, "list_emit"), start_(device, "list_start"),
       gather_(device, "list_gather"), scan_(device, 1), sort_(device, 1),
-      lensBoxes_(uploadBoxes(device, pattern)) {}
+      lensBoxes_(uploadBoxes(device, groups)) {}
 
 DeviceLists ListPasses::run(CommandList& commands, const DeviceBins& bins, OutputPush push, float marginPx) {
     push.radiusPx = marginPx;

@@ -14,11 +14,14 @@ struct DeviceLists {
 
 class ListPasses {
 public:
-    ListPasses(Device& device, const OutputPattern& pattern);
+    ListPasses(Device& device, const std::vector<LensBox>& groups);
 
     /// Lists of push.groupCount groups from push.firstGroup on; push needs grid, outputs and brickTotal.
     /// Runs on `commands`, which must be empty, and leaves it empty.
     DeviceLists run(CommandList& commands, const DeviceBins& bins, OutputPush push, float marginPx);
+
+    /// Of all groups: min, max.
+    const Buffer& lensBoxes() const { return lensBoxes_; }
 
 private:
     Device& device_;

@@ -27,16 +27,19 @@ OutputPasses::Counters OutputPasses::counters() const {
 }
 
 OutputPasses::Result OutputPasses::run(CommandList& commands, ListPasses& listPasses, const DeviceBins& bins,
-                                       const DeviceLists& lists, OutputPush push, const Buffer& dense) {
+                                       const DeviceLists& lists, std::span<const uvec4> todo, OutputPush push,
+                                       const Buffer& dense) {
     reserve(dense.texels());
     commands.fill(counters_, 0);
     push.radiusPx = bins.grid.radiusPx;
-    const Grid tiles{std::uint32_t(push.outputs.tileCount.x << push.groupBits),
-                     std::uint32_t(push.outputs.tileCount.y), push.groupCount};
-    commands.dispatch(nearest_,
-                      {bins.positions, bins.radiances, bins.cellStart, lists.start, lists.cellBases,
-                       lists.bricks, pattern_, dense, counters_, visibilityList_, overflowList_},
-                      push, tiles);
+    push.count = uint(todo.size());
+    Buffer todoList(device_, TexelFormat::rgba32ui, todo.size());
+    todoList.upload(todo);
+    commands.dispatch(
+        nearest_,
+        {bins.positions, bins.radiances, bins.cellStart, lists.start, lists.cellBases, lists.bricks, pattern_,
+         dense, counters_, visibilityList_, overflowList_, todoList},
+        push, nearest_.gridFor((std::uint64_t(push.count) * kTileSize * kTileSize) << push.groupBits));
     commands.run();
 
     Result result;

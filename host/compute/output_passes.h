@@ -16,10 +16,11 @@ public:
         std::vector<uint> overflowed; ///< indices into dense that are still to be done, ascending
     };
 
-    /// Fills `dense` (planes of region pixels); `lists` have a margin of 2 R. Runs on `commands`, which must
-    /// be empty, and leaves it empty.
+    /// Fills `dense` (planes of region pixels) for the lists `todo` (tile x, y, lens
+    /// group, list); `lists` have a margin of 2 R.
+    /// Runs on `commands`, which must be empty, and leaves it empty.
     Result run(CommandList& commands, ListPasses& listPasses, const DeviceBins& bins,
-               const DeviceLists& lists, OutputPush push, const Buffer& dense);
+               const DeviceLists& lists, std::span<const uvec4> todo, OutputPush push, const Buffer& dense);
 
 private:
     using Counters = std::vector<uint>;

@@ -67,7 +67,7 @@ private:
         }
         StageTimer timer(run_.report, "pixel_filter", "outputs");
         timer.items = samples;
-        run_.filmPass.accumulate(run_.commands, dense_, band, planes);
+        run_.filmPass.accumulate(run_.commands, dense_, band, planes, 1);
         run_.monitor.advance(samples);
     }
 

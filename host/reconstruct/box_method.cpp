@@ -13,7 +13,7 @@ void boxMethod(CpuRun& run) {
          planBands(field.frame, run.film.filter(), field.samplesPerPixel, maxDenseSamples(run.options))) {
         const DenseSamples dense = denseFromInput(field, band.region);
         run.observe("dense", dense.samples);
-        run.film.accumulate(dense, band.y0, band.y1, kFilmBlock);
+        run.film.accumulate(dense, band.y0, band.y1);
     }
 }
 

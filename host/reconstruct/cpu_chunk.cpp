@@ -14,18 +14,20 @@ SearchContext contextOf(const Bins& bins, const TileLists& lists, std::size_t li
 
 } // namespace
 
-CpuChunk::CpuChunk(const Bins& bins, const OutputPattern& pattern, const Band& band, std::uint64_t seed,
-                   std::size_t firstGroup, std::size_t groupCount)
-    : bins_(bins), pattern_(pattern), layout_(layoutOf(band, pattern, seed)),
-      groups_(pattern.groups.data() + firstGroup, groupCount),
+CpuChunk::CpuChunk(const Bins& bins, const LayerMap* map, const OutputPattern& pattern, const Band& band,
+                   std::uint64_t seed, std::size_t firstGroup, std::size_t groupCount)
+    : bins_(bins), map_(map), pattern_(pattern), layout_(layoutOf(band, pattern, seed)),
+      groups_(pattern.groups.data() + firstGroup, groupCount), lensPoints_(lensPoints(pattern)),
       firstOutput_(int(firstGroup) << pattern.groupBits), outputCount_(int(groupCount) << pattern.groupBits) {
     dense.region = band.region;
+    dense.groupSize = pattern.groupSize();
     dense.samples.resize(band.region.area() * outputCount_);
 }
 
 void CpuChunk::run(Monitor& monitor, ReconstructReport& report) {
     lists = makeTileLists(bins_, layout_, groups_, 2 * bins_.grid.radiusPx);
     const std::size_t tiles = std::size_t(layout_.tileCount.x) * layout_.tileCount.y;
+    rungs.assign(tiles * groups_.size(), 0);
     parallelFor(0, tiles, 1, [&](std::size_t first, std::size_t last) {
         Counts counts;
         for (std::size_t tile = first; tile < last; ++tile) runTile(tile, counts);
@@ -33,6 +35,7 @@ void CpuChunk::run(Monitor& monitor, ReconstructReport& report) {
         monitor.advance(counts.outputs);
     });
     report.outputs += counts_.outputs;
+    report.layered += counts_.layered;
     report.visibility += counts_.visibility;
     report.widened += counts_.holes.size();
     widen(report);
@@ -61,9 +64,44 @@ void CpuChunk::store(const Slot& slot, const Output& output, const Reconstructed
 void CpuChunk::runTile(std::size_t tile, Counts& counts) {
     const ivec2 corner = kTileSize * ivec2(int(tile) % layout_.tileCount.x, int(tile) / layout_.tileCount.x);
     const ivec2 end = glm::min(corner + kTileSize, layout_.regionSize);
-    for (int k = 0; k < outputCount_; ++k)
-        for (int y = corner.y; y < end.y; ++y)
-            for (int x = corner.x; x < end.x; ++x) runSlot(slotAt(ivec2(x, y), k), counts);
+    const std::size_t tiles = std::size_t(layout_.tileCount.x) * layout_.tileCount.y;
+    const int groupSize = pattern_.groupSize();
+    for (std::size_t group = 0; group < groups_.size(); ++group) {
+        const std::size_t list = group * tiles + tile;
+        if (map_) {
+            const std::vector<Cluster> clusters =
+                clustersOf(bins_, contextOf(bins_, lists, list).bricks, groups_[group], pattern_.lensScale,
+                           map_->layout.reachPx);
+            if (!clusters.empty() && takeFromMap(group, corner, clusters)) {
+                rungs[list] = uint(clusters.size());
+                const auto outputs = std::uint64_t((end.x - corner.x) * (end.y - corner.y) * groupSize);
+                counts.outputs += outputs;
+                counts.layered += outputs;
+                continue;
+            }
+        }
+        for (int k = 0; k < groupSize; ++k)
+            for (int y = corner.y; y < end.y; ++y)
+                for (int x = corner.x; x < end.x; ++x)
+                    runSlot(slotAt(ivec2(x, y), int(group) * groupSize + k), counts);
+    }
+}
+
+/// False where one of them meets nothing: then all have to be searched for. Whether that is so must not
+/// depend on bands, so positions outside the region are looked at too.
+bool CpuChunk::takeFromMap(std::size_t group, ivec2 corner, std::span<const Cluster> clusters) {
+    const int first = int(group) << pattern_.groupBits;
+    const std::span<const vec4> points(&lensPoints_[std::size_t(firstOutput_ + first)],
+                                       std::size_t(pattern_.groupSize()));
+    for (int y = corner.y; y < corner.y + kTileSize; ++y)
+        for (int x = corner.x; x < corner.x + kTileSize; ++x) {
+            const vec2 center = vec2(layout_.regionOrigin + ivec2(x, y)) + 0.5f;
+            const std::optional<vec3> rgb = throughLayers(*map_, clusters, center, points);
+            if (!rgb) return false;
+            if (x < layout_.regionSize.x && y < layout_.regionSize.y)
+                dense.samples[slotAt(ivec2(x, y), first).sample] = vec4(*rgb, kWholePixel);
+        }
+    return true;
 }
 
 void CpuChunk::runSlot(const Slot& slot, Counts& counts) {
@@ -94,6 +132,7 @@ void CpuChunk::redo(std::span<const uint> indices, ReconstructReport& report) {
 void CpuChunk::add(const Counts& counts) {
     const std::lock_guard lock(mutex_);
     counts_.outputs += counts.outputs;
+    counts_.layered += counts.layered;
     counts_.visibility += counts.visibility;
     counts_.holes.insert(counts_.holes.end(), counts.holes.begin(), counts.holes.end());
 }

@@ -2,6 +2,7 @@
 #pragma once
 #include "base/monitor.h"
 #include "reconstruct/film_buffer.h"
+#include "reconstruct/layers.h"
 #include "reconstruct/plan.h"
 #include "reconstruct/search.h"
 
@@ -13,8 +14,9 @@ namespace slant {
 /// The outputs of a chunk of lens groups over one band.
 class CpuChunk {
 public:
-    CpuChunk(const Bins& bins, const OutputPattern& pattern, const Band& band, std::uint64_t seed,
-             std::size_t firstGroup, std::size_t groupCount);
+    /// Outputs come from `map` where it serves, unless it is null.
+    CpuChunk(const Bins& bins, const LayerMap* map, const OutputPattern& pattern, const Band& band,
+             std::uint64_t seed, std::size_t firstGroup, std::size_t groupCount);
 
     /// Lists, then every output; progress in outputs. Adds to the counts of `report`.
     void run(Monitor& monitor, ReconstructReport& report);
@@ -25,6 +27,8 @@ public:
 
     DenseSamples dense;
     TileLists lists;
+    std::vector<uint>
+        rungs; ///< of each list: clusters that its outputs were taken from the map through; 0: none
 
 private:
     /// Where an output is stored, and in which list its bricks stand.
@@ -34,7 +38,7 @@ private:
         int output; ///< within the chunk
     };
     struct Counts {
-        std::uint64_t outputs = 0, visibility = 0;
+        std::uint64_t outputs = 0, layered = 0, visibility = 0;
         std::vector<Slot> holes;
     };
 
@@ -42,14 +46,17 @@ private:
     Output at(const Slot& slot) const;
     void store(const Slot& slot, const Output& output, const Reconstructed& result);
     void runTile(std::size_t tile, Counts& counts);
+    bool takeFromMap(std::size_t group, ivec2 corner, std::span<const Cluster> clusters);
     void runSlot(const Slot& slot, Counts& counts);
     void add(const Counts& counts);
     void widen(ReconstructReport& report);
 
     const Bins& bins_;
+    const LayerMap* map_;
     const OutputPattern& pattern_;
     OutputLayout layout_;
     std::span<const LensBox> groups_;
+    std::vector<vec4> lensPoints_; ///< of all outputs of the pattern
     int firstOutput_, outputCount_;
     std::mutex mutex_;
     Counts counts_;

@@ -10,7 +10,7 @@ namespace slant {
 namespace {
 
 /// In the order of Method.
-constexpr std::array<CpuMethod*, kMethodCount> kMethods = {boxMethod, windowMethod, fullMethod};
+constexpr std::array<CpuMethod*, kMethodCount> kMethods = {boxMethod, windowMethod, fullMethod, fullMethod};
 
 } // namespace
 

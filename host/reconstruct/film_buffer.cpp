@@ -17,12 +17,22 @@ float axisWeight(const FilterTable& filter, int axis, int offset, int q) {
     return filter.weights[std::size_t(axis == 0 ? index : filter.length[0] + index)];
 }
 
-vec4 weighted(const FilterTable& filter, const vec4& sample, ivec2 offset) {
+vec4 weighted(const vec4& sample, float weight) {
+    return vec4(weight * sample.x, weight * sample.y, weight * sample.z, weight);
+}
+
+vec4 filtered(const FilterTable& filter, const vec4& sample, ivec2 offset) {
     if (sample.w < 0) return vec4(0);
     const int code = int(sample.w);
-    const float weight = axisWeight(filter, 0, offset.x, code / kSubpixels) *
-                         axisWeight(filter, 1, offset.y, code % kSubpixels);
-    return vec4(weight * sample.x, weight * sample.y, weight * sample.z, weight);
+    return weighted(sample, axisWeight(filter, 0, offset.x, code / kSubpixels) *
+                                axisWeight(filter, 1, offset.y, code % kSubpixels));
+}
+
+/// A sample that stands for a group of `size`.
+vec4 filteredGroup(const FilterTable& filter, const vec4& sample, ivec2 offset, int size) {
+    const float* means = filter.weights.data() + filter.length.x + filter.length.y;
+    const float weight = means[glm::abs(offset.x)] * means[filter.reach.x + 1 + glm::abs(offset.y)];
+    return weighted(sample, float(size) * weight);
 }
 
 } // namespace
@@ -36,28 +46,34 @@ float positionCode(float fractionX, float fractionY) {
 FilmBuffer::FilmBuffer(const Rect& frame, FilterTable filter)
     : frame_(frame), filter_(std::move(filter)), sums_(frame.area(), vec4(0)) {}
 
-void FilmBuffer::accumulate(const DenseSamples& dense, int y0, int y1, int blockSize) {
+vec4 FilmBuffer::partOf(const DenseSamples& dense, int x, int y, int begin, int end) const {
     const std::size_t plane = dense.region.area();
-    const int planes = int(dense.samples.size() / std::max<std::size_t>(plane, 1));
     const ivec2 reach = filter_.reach;
+    vec4 part(0);
+    for (int group = begin; group < end; group += dense.groupSize)
+        for (int dy = -reach.y; dy <= reach.y; ++dy)
+            for (int dx = -reach.x; dx <= reach.x; ++dx) {
+                const vec4* sample = dense.samples.data() + group * plane +
+                                     std::size_t(y + dy - dense.region.y0) * dense.region.width() +
+                                     (x + dx - dense.region.x0);
+                if (sample->w == kWholePixel)
+                    part += filteredGroup(filter_, *sample, ivec2(dx, dy), dense.groupSize);
+                else
+                    for (int k = 0; k < dense.groupSize; ++k)
+                        part += filtered(filter_, sample[k * plane], ivec2(dx, dy));
+            }
+    return part;
+}
+
+void FilmBuffer::accumulate(const DenseSamples& dense, int y0, int y1) {
+    const int planes = int(dense.samples.size() / std::max<std::size_t>(dense.region.area(), 1));
     parallelFor(std::size_t(y0 - frame_.y0), std::size_t(y1 - frame_.y0), 1,
                 [&](std::size_t first, std::size_t last) {
                     for (int y = int(first) + frame_.y0; y < int(last) + frame_.y0; ++y)
                         for (int x = frame_.x0; x < frame_.x1; ++x) {
                             vec4& sum = sums_[std::size_t(y - frame_.y0) * frame_.width() + (x - frame_.x0)];
-                            for (int block = 0; block < planes; block += blockSize) {
-                                vec4 part(0);
-                                for (int k = block; k < std::min(block + blockSize, planes); ++k)
-                                    for (int dy = -reach.y; dy <= reach.y; ++dy) {
-                                        const vec4* row =
-                                            dense.samples.data() + k * plane +
-                                            std::size_t(y + dy - dense.region.y0) * dense.region.width() +
-                                            (x - dense.region.x0);
-                                        for (int dx = -reach.x; dx <= reach.x; ++dx)
-                                            part += weighted(filter_, row[dx], ivec2(dx, dy));
-                                    }
-                                sum += part;
-                            }
+                            for (int block = 0; block < planes; block += kFilmBlock)
+                                sum += partOf(dense, x, y, block, std::min(block + kFilmBlock, planes));
                         }
                 });
 }

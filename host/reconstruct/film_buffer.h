@@ -10,10 +10,12 @@ namespace slant {
 
 /// Dense samples of a region of pixels, plane after plane: sample k of pixel (i, j) is
 /// samples[k * region.area() + j * region.width() + i]. rgb, and in w the place in the pixel
-/// (Output::positionCode), negative where there is no sample.
+/// (Output::positionCode), negative where there is no sample; kWholePixel where it stands for all of its
+/// group.
 struct DenseSamples {
     Rect region;
     std::vector<vec4> samples;
+    int groupSize = 1; ///< planes of a lens group
 };
 
 /// The position code of a place in a pixel, both in [0, 1).
@@ -24,10 +26,10 @@ class FilmBuffer {
 public:
     FilmBuffer(const Rect& frame, FilterTable filter);
 
-    /// Adds dense planes to the pixels `rows` (y0 <= y < y1 of the frame), `blockSize` planes at a time: the
-    /// sum does not depend on how planes are split over calls as long as blocks stay whole. dense.region must
-    /// hold the rows and the filter's reach around them.
-    void accumulate(const DenseSamples& dense, int y0, int y1, int blockSize);
+    /// Adds dense planes to the rows y0 <= y < y1 of the frame, kFilmBlock planes at a time: the sum does not
+    /// depend on how planes are split over calls as long as blocks stay whole. dense.region must hold the
+    /// rows and the filter's reach around them.
+    void accumulate(const DenseSamples& dense, int y0, int y1);
 
     /// Divides by the weights. Pixels without weight are black and counted.
     Image toImage(std::uint64_t& emptyPixels) const;
@@ -38,6 +40,9 @@ public:
     const std::vector<vec4>& sums() const { return sums_; }
 
 private:
+    /// What the planes [begin, end) add to a pixel.
+    vec4 partOf(const DenseSamples& dense, int x, int y, int begin, int end) const;
+
     Rect frame_;
     FilterTable filter_;
     std::vector<vec4> sums_;

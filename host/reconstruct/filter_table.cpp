@@ -26,6 +26,14 @@ double sinc(double x) {
     return x < 1e-5 ? 1 : std::sin(std::numbers::pi * x) / (std::numbers::pi * x);
 }
 
+/// Of a filter of radius `radius` over the pixel `offset` pixels away.
+double meanOverPixel(const PixelFilter& filter, double radius, int offset) {
+    double sum = 0;
+    for (int q = 0; q < kSubpixels; ++q)
+        sum += evaluateFilterAxis(filter, radius, std::abs(offset + (q + 0.5) / kSubpixels - 0.5));
+    return sum / kSubpixels;
+}
+
 } // namespace
 
 double evaluateFilterAxis(const PixelFilter& filter, double radius, double x) {
@@ -57,6 +65,9 @@ FilterTable makeFilterTable(const PixelFilter& filter) {
         for (int i = 0; i < table.length[axis]; ++i)
             table.weights.push_back(float(evaluateFilterAxis(filter, radius, (i + 0.5) / kSubpixels)));
     }
+    for (int axis = 0; axis < 2; ++axis)
+        for (int offset = 0; offset <= table.reach[axis]; ++offset)
+            table.weights.push_back(float(meanOverPixel(filter, filter.radius[axis], offset)));
     return table;
 }
 

@@ -1,24 +1,50 @@
-// Method `full` on the CPU: every output from the bins, with apparent surfaces told apart.
+// Methods `full` and `auto` on the CPU: outputs from the bins, with apparent surfaces told apart; of `auto`,
+// only those that the layer map cannot serve.
 #include "reconstruct/cpu_chunk.h"
 #include "reconstruct/cpu_methods.h"
 #include "reconstruct/stage_timer.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace slant {
 
+namespace {
+
+/// Stage "layer_map" of `auto`.
+LayerMap layerMapOf(CpuRun& run, const Bins& bins, const MapLayout& layout) {
+    StageTimer timer(run.report, "layer_map", "texels");
+    LayerMap map = makeLayerMap(bins, layout);
+    timer.items = map.heads.size();
+    timer.bytes = (map.heads.size() + map.layers.size()) * sizeof(vec4);
+    run.observe("layer_map.heads", map.heads);
+    run.observe("layer_map.layers", map.layers);
+    return map;
+}
+
+} // namespace
+
 void fullMethod(CpuRun& run) {
     const Bins bins = run.bin();
+    const ReconstructOptions& options = run.options;
+    const Rect& frame = run.field.frame;
     const OutputPattern pattern =
-        makeOutputPattern(run.options.outputsPerPixel, largestSlope(bins.grid), run.options.lensScale);
-    const Plan plan = planOutputs(run.field.frame, run.film.filter(), pattern, maxDenseSamples(run.options));
+        makeOutputPattern(options.outputsPerPixel, largestSlope(bins.grid), options.lensScale);
+    const bool layered = options.method == Method::ladder;
+    const float reach = mapReach(bins.grid, options.lensScale);
+    const int maxRows =
+        layered ? mapRows(frame, reach, options.memoryBytes / 2) : std::numeric_limits<int>::max();
+    const Plan plan = planOutputs(frame, run.film.filter(), pattern, maxDenseSamples(options), maxRows);
 
     run.monitor.beginStage("reconstruct", plan.outputs, "outputs");
-    for (const Band& band : plan.bands)
+    for (const Band& band : plan.bands) {
+        std::optional<LayerMap> map;
+        if (layered)
+            map = layerMapOf(run, bins, chooseMap(bins.grid, band.region, reach, spreadPerPx(pattern)));
         for (std::size_t group = 0; group < pattern.groups.size(); group += plan.groupsPerChunk) {
             const std::size_t count =
                 std::min<std::size_t>(plan.groupsPerChunk, pattern.groups.size() - group);
-            CpuChunk chunk(bins, pattern, band, run.options.seed, group, count);
+            CpuChunk chunk(bins, map ? &*map : nullptr, pattern, band, run.options.seed, group, count);
             {
                 StageTimer timer(run.report, "reconstruct", "outputs");
                 chunk.run(run.monitor, run.report);
@@ -27,11 +53,13 @@ void fullMethod(CpuRun& run) {
             }
             run.observe("lists.start", chunk.lists.start);
             run.observe("lists.bricks", chunk.lists.bricks);
+            if (map) run.observe("rungs", chunk.rungs);
             run.observe("dense", chunk.dense.samples);
             StageTimer timer(run.report, "pixel_filter", "outputs");
             timer.items = chunk.dense.samples.size();
-            run.film.accumulate(chunk.dense, band.y0, band.y1, kFilmBlock);
+            run.film.accumulate(chunk.dense, band.y0, band.y1);
         }
+    }
     run.monitor.endStage();
 }
 

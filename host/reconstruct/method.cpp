@@ -6,7 +6,7 @@
 namespace slant {
 namespace {
 
-const std::array<std::string, kMethodCount> kMethodNames = {"box", "window", "full"};
+const std::array<std::string, kMethodCount> kMethodNames = {"box", "window", "full", "auto"};
 
 } // namespace
 

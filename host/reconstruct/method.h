@@ -19,8 +19,9 @@ enum class Method {
     box,    ///< the pixel filter over the input samples: no reconstruction
     window, ///< reprojection within a fixed window of pixels: what this program grew from, for comparison
     full,   ///< reprojection, apparent surfaces and visibility for every output (Lehtinen et al. 2011)
+    ladder, ///< "auto": outputs of blurred surfaces from a layer map, the others as `full`
 };
-inline constexpr std::size_t kMethodCount = 3;
+inline constexpr std::size_t kMethodCount = 4;
 
 /// What users call the methods, in the order of Method.
 std::span<const std::string> methodNames();
@@ -38,7 +39,7 @@ struct WindowOptions {
 };
 
 struct ReconstructOptions {
-    Method method = Method::full;
+    Method method = Method::ladder;
     int outputsPerPixel = 128; ///< a power of two; `box` has none
     float lensScale = 1;       ///< radius of the aperture over that of the traced one; 0 = pinhole; not `box`
     PixelFilter filter;
@@ -61,6 +62,7 @@ public:
 /// What a run met and cost.
 struct ReconstructReport {
     std::uint64_t outputs = 0;    ///< reconstructed samples
+    std::uint64_t layered = 0;    ///< of them, those that were taken from the layer map
     std::uint64_t visibility = 0; ///< of them, those that needed apparent surfaces told apart
     std::uint64_t widened = 0; ///< those that found nothing within 2 R (window: and took the nearest sample)
     std::uint64_t holes = 0;   ///< those that found nothing at all and were left out (window: are black)

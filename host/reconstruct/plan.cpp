@@ -7,13 +7,13 @@
 namespace slant {
 
 std::vector<Band> planBands(const Rect& frame, const FilterTable& filter, int planes,
-                            std::uint64_t maxSamples) {
+                            std::uint64_t maxSamples, int maxRows) {
     const int reach = filter.reach.y;
     const std::uint64_t rowSamples = std::uint64_t(frame.width() + 2 * filter.reach.x) * planes;
     const std::uint64_t rowsThatFit = maxSamples / std::max<std::uint64_t>(rowSamples, 1);
     const int rows =
         int(std::min<std::uint64_t>(rowsThatFit, std::uint64_t(frame.height() + kTileSize + 2 * reach)));
-    const int bandRows = (rows - 2 * reach) / kTileSize * kTileSize;
+    const int bandRows = std::min(rows - 2 * reach, maxRows) / kTileSize * kTileSize;
     if (bandRows < kTileSize)
         throw Error(
             ErrorCode::resources,
@@ -51,10 +51,10 @@ OutputLayout layoutOf(const Band& band, const OutputPattern& pattern, std::uint6
 }
 
 Plan planOutputs(const Rect& frame, const FilterTable& filter, const OutputPattern& pattern,
-                 std::uint64_t maxSamples) {
+                 std::uint64_t maxSamples, int maxRows) {
     const int block = std::min(kFilmBlock, pattern.outputsPerPixel());
     Plan plan;
-    plan.bands = planBands(frame, filter, block, maxSamples);
+    plan.bands = planBands(frame, filter, block, maxSamples, maxRows);
     for (const Band& band : plan.bands)
         plan.outputs += band.region.area() * std::uint64_t(pattern.outputsPerPixel());
     const std::uint64_t blocksThatFit = maxSamples / (plan.bands.front().region.area() * block);

@@ -6,6 +6,7 @@
 #include "reconstruct/output_pattern.h"
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace slant {
@@ -19,10 +20,10 @@ struct Band {
     Rect region; ///< pixels whose dense samples it needs: the rows and the filter's reach
 };
 
-/// Bands whose region holds at most `maxSamples` dense samples at `planes` a pixel. Throws Error(resources)
-/// when a row of tiles is more than that.
+/// Bands of up to `maxRows` rows whose region holds at most `maxSamples` dense samples at `planes` a pixel.
+/// Throws Error(resources) when a row of tiles is more than that.
 std::vector<Band> planBands(const Rect& frame, const FilterTable& filter, int planes,
-                            std::uint64_t maxSamples);
+                            std::uint64_t maxSamples, int maxRows = std::numeric_limits<int>::max());
 
 /// The whole picture and the filter's reach.
 Rect outputRegion(const Rect& frame, const FilterTable& filter);
@@ -39,8 +40,8 @@ struct Plan {
     std::uint64_t outputs = 0; ///< in all
 };
 
-/// Bands and chunks of at most `maxSamples` dense samples.
+/// Bands of up to `maxRows` rows and chunks of at most `maxSamples` dense samples.
 Plan planOutputs(const Rect& frame, const FilterTable& filter, const OutputPattern& pattern,
-                 std::uint64_t maxSamples);
+                 std::uint64_t maxSamples, int maxRows = std::numeric_limits<int>::max());
 
 } // namespace slant

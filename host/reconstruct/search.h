@@ -1,7 +1,7 @@
 // One output against the bins: the inner loop of the reconstruction, as clear as it can be. The compute
 // path's lib/search.glsl and lib/surfaces.glsl have the same names and the same order of operations.
 #pragma once
-#include "reconstruct/tile_lists.h"
+#include "reconstruct/candidates.h"
 
 namespace slant {
 
@@ -15,12 +15,6 @@ struct Reconstructed {
     Outcome outcome = Outcome::hole;
     vec3 rgb{0};
     int iterations = 0; ///< loop steps taken; beyond kMaxLoopIterations compute leaves the output to the CPU
-};
-
-/// Bricks to look at for one output.
-struct SearchContext {
-    const Bins& bins;
-    std::span<const uint> bricks;
 };
 
 /// The front-most apparent surface within R, tent-filtered, where it is the only one or its samples surround

@@ -30,7 +30,7 @@ void windowMethod(CpuRun& run) {
             run.observe("dense", chunk.dense.samples);
             StageTimer timer(run.report, "pixel_filter", "outputs");
             timer.items = chunk.dense.samples.size();
-            run.film.accumulate(chunk.dense, band.y0, band.y1, kFilmBlock);
+            run.film.accumulate(chunk.dense, band.y0, band.y1);
         }
     run.monitor.endStage();
     warnOfHoles(run.report, run.monitor);

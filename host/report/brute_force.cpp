@@ -26,7 +26,7 @@ BruteForce bruteForce(const Scene& scene, const Tracer& tracer, std::uint64_t se
         tracer.trace(batch.bounds, first, batch.samplesPerPixel, scene.pixelSamples, seed, batch.samples, {},
                      monitor);
         result.defects.add(sanitize(batch));
-        film.accumulate(denseFromInput(batch, batch.bounds), film.frame().y0, film.frame().y1, kFilmBlock);
+        film.accumulate(denseFromInput(batch, batch.bounds), film.frame().y0, film.frame().y1);
     }
     monitor.endStage();
     result.image = film.toImage(result.emptyPixels);

@@ -1,5 +1,5 @@
-// Bindings 0 to 6 of the passes that look outputs up in the bins, and the accessors that lib/search.glsl needs.
-// Not a pure library: it is the resource half that reconstruct.comp and visibility.comp share.
+// Bindings 0 to 5 of the passes that look outputs up in the bins, and the accessors that lib/search.glsl needs.
+// Not a pure library: it is the resource half that the shaders which search the bins share.
 #ifndef SLANT_LIB_BINS_GLSL
 #define SLANT_LIB_BINS_GLSL
 #include "lib/grid.glsl"
@@ -10,7 +10,6 @@ layout(set = 0, binding = 2) uniform utextureBuffer cellStart;
 layout(set = 0, binding = 3) uniform utextureBuffer listStart;
 layout(set = 0, binding = 4) uniform utextureBuffer listCellBases; // of each listed brick
 layout(set = 0, binding = 5) uniform utextureBuffer listBricks; // the brick itself: one fetch where most are passed over
-layout(set = 0, binding = 6) uniform utextureBuffer pattern;
 layout(push_constant) uniform Push { OutputPush push; };
 
 vec4 positionAt(uint record) { return texelFetch(positions, int(record)); }

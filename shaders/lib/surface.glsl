@@ -6,13 +6,14 @@
 struct Surface {
     int count;
     float slopeMax;
+    float slopeSum; // with the inner weights
     vec3 innerSum, outerSum; // tents over the base radius and over twice that
     float innerWeight, outerWeight;
     Hull hull;
 };
 
 Surface noSurface() {
-    return Surface(0, -kInfinity, vec3(0.0), vec3(0.0), 0.0, 0.0, noHull());
+    return Surface(0, -kInfinity, 0.0, vec3(0.0), vec3(0.0), 0.0, 0.0, noHull());
 }
 
 void addSample(inout Surface surface, Candidate candidate, vec3 rgb, float baseRadius) {
@@ -22,6 +23,7 @@ void addSample(inout Surface surface, Candidate candidate, vec3 rgb, float baseR
     surface.slopeMax = max(surface.slopeMax, candidate.slope);
     surface.innerSum += inner * rgb;
     surface.innerWeight += inner;
+    surface.slopeSum += inner * candidate.slope;
     surface.outerSum += outer * rgb;
     surface.outerWeight += outer;
     addPoint(surface.hull, candidate.offset);

@@ -24,6 +24,9 @@ SLANT_SHARED_CONSTANT float kSolidInner = 0.68f;
 SLANT_SHARED_CONSTANT float kSolidOuter = 0.5f;
 /// Positions of outputs inside their pixel are multiples of 1 / kSubpixels (plus half a step).
 SLANT_SHARED_CONSTANT int kSubpixels = 4096;
+/// Position code of a dense sample that stands for all outputs of its lens group in its pixel, wherever they
+/// lie: those in the planes after it are not read.
+SLANT_SHARED_CONSTANT float kWholePixel = 16777216.0f; // kSubpixels^2
 /// An invocation stops before its loops have taken more steps than this, and the output is counted as
 /// overflowed. lavapipe breaks loops in silence after 65,535 steps of a vector of up to 16 invocations, which
 /// takes every step that any of them takes.
@@ -123,6 +126,7 @@ struct FilterPush {
     int rowCount;
     int firstPlane;
     int planeCount;
+    int groupSize; // planes of a lens group
 };
 
 /// list_start.

@@ -2,6 +2,7 @@
 #include "compute/compute_reconstructor.h"
 #include "reconstruct/cpu_reconstructor.h"
 #include "reconstruct/plan.h"
+#include "support/expect_error.h"
 #include "support/stages.h"
 #include "support/synthetic.h"
 #include "support/vulkan_fixture.h"
@@ -15,7 +16,7 @@ using test::expectEqual;
 using test::Reconstruction;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-const std::vector<Method> kMethods = {Method::box, Method::window, Method::full};
+const std::vector<Method> kMethods = {Method::box, Method::window, Method::full, Method::ladder};
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 class ReconstructParity : public test::VulkanTest {
@@ -48,6 +49,7 @@ protected:
         EXPECT_EQ(expected.report.emptyPixels, got.report.emptyPixels);
         EXPECT_EQ(expected.report.holes, got.report.holes);
         EXPECT_EQ(expected.report.outputs, got.report.outputs);
+        EXPECT_EQ(expected.report.layered, got.report.layered);
         EXPECT_EQ(expected.report.visibility, got.report.visibility);
         EXPECT_EQ(expected.report.widened, got.report.widened);
         for (const float value : got.image.pixels) EXPECT_TRUE(std::isfinite(value));
@@ -91,7 +93,7 @@ TEST_F(ReconstructParity, everyNumberOfOutputs) {
 TEST_F(ReconstructParity, everyAperture) {
     const LightField field = makeField({0, 0, 31, 23}, 3);
     for (const float lensScale : {0.f, 0.37f, 1.5f})
-        for (const Method method : {Method::window, Method::full}) {
+        for (const Method method : {Method::window, Method::full, Method::ladder}) {
             ReconstructOptions options = optionsOf(method);
             options.lensScale = lensScale;
             EXPECT_EQ(runBoth(field, options).report.emptyPixels, 0u);
@@ -100,7 +102,7 @@ TEST_F(ReconstructParity, everyAperture) {
 
 TEST_F(ReconstructParity, filmDoesNotDependOnMemory) {
     const LightField field = makeField({0, 0, 61, 43}, 8);
-    for (const Method method : kMethods) {
+    for (const Method method : {Method::box, Method::window, Method::full}) {
         ReconstructOptions options = optionsOf(method, 64);
         const Reconstruction plenty = runBoth(field, options);
         // 6 bands of 8 rows (times 8 chunks each), then 1 or 2 bands (4 chunks).
@@ -112,6 +114,22 @@ TEST_F(ReconstructParity, filmDoesNotDependOnMemory) {
             EXPECT_TRUE(plenty.stages.contents.back() == tight.stages.contents.back()) << bytes;
         }
     }
+}
+
+/// The layer map takes the greater part of the memory; its bands follow from that.
+TEST_F(ReconstructParity, layerMapDoesNotDependOnMemory) {
+    const LightField field = makeField({0, 0, 61, 43}, 8);
+    ReconstructOptions options = optionsOf(Method::ladder, 64);
+    const Reconstruction plenty = runBoth(field, options);
+    EXPECT_GT(plenty.report.layered, plenty.report.outputs / 10);
+    for (const auto& [bytes, maps] : {std::pair(17'000'000u, 3), {19'000'000u, 2}}) {
+        options.memoryBytes = bytes;
+        const Reconstruction tight = runBoth(field, options);
+        EXPECT_EQ(std::count(tight.stages.names.begin(), tight.stages.names.end(), "layer_map.heads"), maps);
+        EXPECT_TRUE(plenty.stages.contents.back() == tight.stages.contents.back()) << bytes;
+    }
+    options.memoryBytes = 4'000'000;
+    test::expectError(ErrorCode::resources, "layer map it has to be", [&] { compute(field, options); });
 }
 
 TEST_F(ReconstructParity, outputsWithTooManyCandidatesAreDoneOnTheCpu) {
@@ -128,6 +146,15 @@ TEST_F(ReconstructParity, outputsWithTooManyCandidatesAreDoneOnTheCpu) {
     EXPECT_GT(run.report.overflowed, 0u);
     EXPECT_GT(run.report.holes, 0u);
     EXPECT_GT(run.report.emptyPixels, 0u);
+
+    LightField crowded = makeField({0, 0, 24, 17}, 50);
+    for (std::size_t i = 0; i < crowded.samples.size(); i += 2) { // too many for a texel of the layer map
+        LightFieldSample& s = crowded.samples[i];
+        s.slope = 9;
+        s.x = 11.9f + 0.2f * random.uniform() + s.slope * s.u;
+        s.y = 7.9f + 0.2f * random.uniform() + s.slope * s.v;
+    }
+    EXPECT_GT(runBoth(crowded, optionsOf(Method::ladder)).report.layered, 0u);
 }
 
 TEST_F(ReconstructParity, sanitizedRubbishIsLeftOut) {

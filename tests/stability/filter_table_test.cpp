@@ -63,7 +63,8 @@ TEST(FilterTable, weightsAreTheFilterAtTheMiddleOfEachStep) {
     for (const Known& known : knownFilters()) {
         const FilterTable table = makeFilterTable(known.filter);
         ASSERT_EQ(table.length.x, int(known.filter.radius.x * kSubpixels));
-        ASSERT_EQ(table.weights.size(), std::size_t(table.length.x + table.length.y));
+        ASSERT_EQ(table.weights.size(),
+                  std::size_t(table.length.x + table.length.y + 2 * (table.reach.x + 1)));
         for (int i = 0; i < table.length.x; ++i) {
             const double exact = known.value((i + 0.5) / kSubpixels);
             ASSERT_NEAR(table.weights[std::size_t(i)], exact, 1e-7 * std::max(1.0, std::abs(exact)))
@@ -79,6 +80,22 @@ TEST(FilterTable, massIsTheIntegral) {
         const double half =
             std::accumulate(table.weights.begin(), table.weights.begin() + table.length.x, 0.0) / kSubpixels;
         EXPECT_NEAR(2 * half, known.integral, 1e-6) << int(known.filter.kind);
+    }
+}
+
+/// A sample that stands for a whole pixel weighs what samples all over that pixel weigh on average.
+TEST(FilterTable, meansOverPixelsAddUpToTheIntegral) {
+    for (const Known& known : knownFilters()) {
+        const FilterTable table = makeFilterTable(known.filter);
+        const float* means = table.weights.data() + table.length.x + table.length.y;
+        double sum = means[0];
+        for (int offset = 1; offset <= table.reach.x; ++offset) {
+            sum += 2 * means[offset];
+            const auto value = [&](double x) { return x < known.filter.radius.x ? known.value(x) : 0; };
+            EXPECT_NEAR(means[offset], simpson(value, offset - 0.5, offset + 0.5), 1e-4)
+                << int(known.filter.kind);
+        }
+        EXPECT_NEAR(sum, known.integral, 1e-5) << int(known.filter.kind);
     }
 }
 

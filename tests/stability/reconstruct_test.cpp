@@ -10,7 +10,8 @@
 namespace slant {
 namespace {
 
-const std::vector<Method> kMethods = {Method::box, Method::full};
+const std::vector<Method> kMethods = {Method::box, Method::full, Method::ladder};
+const std::vector<Method> kReconstructions = {Method::full, Method::ladder};
 
 Image reconstruct(const LightField& field, Method method, int outputs = 32, float lensScale = 1) {
     ReconstructOptions options;
@@ -65,15 +66,18 @@ TEST(ReconstructStability, orderWithinAPixelIsNothing) {
 TEST(ReconstructStability, brightnessStays) {
     const double exact = meanOf(manySamples());
     // From 1 sample a pixel the field alone is 0.5 % off, as its plain mean shows.
-    for (const auto& [spp, bound] : {std::pair(1, 0.01), {4, 0.005}, {16, 0.005}, {64, 0.005}})
-        EXPECT_NEAR(meanOf(reconstruct(discs(kFrame, spp, 21), Method::full, 64)) / exact, 1, bound) << spp;
+    for (const Method method : kReconstructions)
+        for (const auto& [spp, bound] : {std::pair(1, 0.01), {4, 0.005}, {16, 0.005}, {64, 0.005}})
+            EXPECT_NEAR(meanOf(reconstruct(discs(kFrame, spp, 21), method, 64)) / exact, 1, bound)
+                << nameOf(method) << ", " << spp;
 }
 
 TEST(ReconstructStability, fourSamplesReconstructedBeatSixteenFiltered) {
     const Image reference = manySamples();
-    const double full = compare(reconstruct(discs(kFrame, 4, 1), Method::full, 64), reference).mse;
     const double box = compare(reconstruct(discs(kFrame, 16, 2), Method::box), reference).mse;
-    EXPECT_LT(full, 0.5 * box);
+    for (const Method method : kReconstructions)
+        EXPECT_LT(compare(reconstruct(discs(kFrame, 4, 1), method, 64), reference).mse, 0.5 * box)
+            << nameOf(method);
 }
 
 /// The truth is the field of a lens that much smaller.
@@ -84,8 +88,11 @@ TEST(ReconstructStability, smallerAperturesComeFromTheSameSamples) {
         for (synthetic::Layer& layer : layers) layer.slope *= lensScale;
         const LightField smaller = synthetic::sample(layers, kFrame, 15, 400, 77);
         const Image truth = reconstruct(smaller, Method::box);
-        const double narrow = compare(reconstruct(field, Method::full, 64, lensScale), truth).mse;
-        EXPECT_LT(narrow, 0.1 * compare(reconstruct(field, Method::full, 64), truth).mse) << lensScale;
+        for (const Method method : kReconstructions) {
+            const double narrow = compare(reconstruct(field, method, 64, lensScale), truth).mse;
+            EXPECT_LT(narrow, 0.1 * compare(reconstruct(field, method, 64), truth).mse)
+                << nameOf(method) << ", " << lensScale;
+        }
     }
 }
 
@@ -97,15 +104,21 @@ TEST(ReconstructStability, stripBehindABlurredEdgeIsSolid) {
                                                   {0.5f, [](vec2 p) { return p.x < 52; }, colour(1)},
                                                   {9, [](vec2) { return true; }, colour(0)}};
     const Image truth = reconstruct(synthetic::sample(layers, kFrame, 15, 400, 77), Method::box);
-    for (const int spp : {2, 4, 16}) {
-        const Image image = reconstruct(synthetic::sample(layers, kFrame, 15, spp, 21), Method::full, 128);
+    for (const auto& [method, spp] : {std::pair(Method::full, 2),
+                                      {Method::full, 4},
+                                      {Method::full, 16},
+                                      {Method::ladder, 2},
+                                      {Method::ladder, 4},
+                                      {Method::ladder, 16}}) {
+        const Image image = reconstruct(synthetic::sample(layers, kFrame, 15, spp, 21), method, 128);
         for (int x = 38; x < 51; ++x) {
             double got = 0, wanted = 0;
             for (int y = 8; y < 64; ++y) {
                 got += image.pixels[3 * std::size_t(y * kFrame.width() + x)];
                 wanted += truth.pixels[3 * std::size_t(y * kFrame.width() + x)];
             }
-            EXPECT_NEAR(got / 56, wanted / 56, 0.012) << "x " << x << ", " << spp << " samples a pixel";
+            EXPECT_NEAR(got / 56, wanted / 56, 0.012)
+                << nameOf(method) << ", x " << x << ", " << spp << " samples a pixel";
         }
     }
 }
@@ -121,13 +134,17 @@ TEST(ReconstructStability, smallDiscsKeepTheirBrightness) {
             const std::vector<synthetic::Layer> layers = {{slope, inside, colour(1)},
                                                           {9, [](vec2) { return true; }, colour(0)}};
             for (const int spp : {2, 4, 16}) {
-                double got = 0, wanted = 0; // of the same samples, so that their noise does not count
+                double full = 0, ladder = 0,
+                       wanted = 0; // of the same samples, so that their noise does not count
                 for (const std::uint32_t seed : {31, 32}) {
                     const LightField field = synthetic::sample(layers, kFrame, 15, spp, seed);
-                    got += meanOf(reconstruct(field, Method::full, 32));
+                    full += meanOf(reconstruct(field, Method::full, 32));
+                    ladder += meanOf(reconstruct(field, Method::ladder, 32));
                     wanted += meanOf(reconstruct(field, Method::box));
                 }
-                EXPECT_NEAR(got / wanted, 1, 0.06)
+                EXPECT_NEAR(full / wanted, 1, 0.06)
+                    << "radius " << radius << ", slope " << slope << ", " << spp;
+                EXPECT_NEAR(ladder / wanted, 1, 0.06)
                     << "radius " << radius << ", slope " << slope << ", " << spp;
             }
         }

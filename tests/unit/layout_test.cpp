@@ -1,6 +1,7 @@
 // Structs of push constants lie in memory as the shaders see them. A new one is added to kLayouts: the test
 // fails on a shader whose struct it does not know.
 #include "compute/spirv.h"
+#include "shared/layers.h"
 #include "shared/radix.h"
 #include "shared/reconstruct.h"
 #include "shared/scan.h"
@@ -43,9 +44,14 @@ const Layout kLayouts[] = {
            MEMBER(OutputPush, radiusPx), MEMBER(OutputPush, groupBits)),
     STRUCT(FilterPush, MEMBER(FilterPush, regionSize), MEMBER(FilterPush, reach),
            MEMBER(FilterPush, tableLength), MEMBER(FilterPush, filmSize), MEMBER(FilterPush, firstRow),
-           MEMBER(FilterPush, rowCount), MEMBER(FilterPush, firstPlane), MEMBER(FilterPush, planeCount)),
+           MEMBER(FilterPush, rowCount), MEMBER(FilterPush, firstPlane), MEMBER(FilterPush, planeCount),
+           MEMBER(FilterPush, groupSize)),
     STRUCT(WindowPush, MEMBER(WindowPush, search), MEMBER(WindowPush, outputs), MEMBER(WindowPush, lensCells),
            MEMBER(WindowPush, lensScale), MEMBER(WindowPush, firstOutput), MEMBER(WindowPush, count)),
+    STRUCT(ReducePush, MEMBER(ReducePush, size), MEMBER(ReducePush, source), MEMBER(ReducePush, target),
+           MEMBER(ReducePush, surfaceGap)),
+    STRUCT(LayerPush, MEMBER(LayerPush, outputs), MEMBER(LayerPush, map), MEMBER(LayerPush, firstGroup),
+           MEMBER(LayerPush, count), MEMBER(LayerPush, groupBits), MEMBER(LayerPush, lensScale)),
     STRUCT(LowerBoundPush, MEMBER(LowerBoundPush, keyCount), MEMBER(LowerBoundPush, count)),
 };
 

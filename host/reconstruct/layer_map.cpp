@@ -1,0 +1,237 @@
+#include "reconstruct/layer_map.h"
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "reconstruct/surface.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace slant {
+namespace {
+
+/// Wider margins take more memory and time than they save.
+constexpr float kMostReachPx = 128;
+
+/// Adds a layer to a texel that has room for it. What has nothing before or behind it fills the texel.
+void close(MapTexel& texel, const Surface& surface, float fullWeight, bool last) {
+    if (!(surface.innerWeight > 0)) return;
+    const int count = int(texel.head.w);
+    const bool full = (last && count == 0) || isSolid(surface, fullWeight);
+    const float coverage = full ? 1.f : glm::min(surface.innerWeight / fullWeight, 1.f);
+    texel.head[count] = surface.slopeSum / surface.innerWeight;
+    texel.layers[std::size_t(count)] = vec4(surface.innerSum / surface.innerWeight, coverage);
+    texel.head.w = float(count + 1);
+}
+
+/// Down or up to a multiple of kMapAlignPx.
+ivec2 aligned(vec2 px, bool up) {
+    const vec2 steps = px / float(kMapAlignPx);
+    return kMapAlignPx * ivec2(up ? glm::ceil(steps) : glm::floor(steps));
+}
+
+} // namespace
+
+float mapRadius(const GridLayout& grid) {
+    return glm::max(kMapTentPx, grid.radiusPx);
+}
+
+float mapReach(const GridLayout& grid, float lensScale) {
+    return glm::min(lensScale * largestSlope(grid), kMostReachPx);
+}
+
+int mapRows(const Rect& frame, float reachPx, std::uint64_t bytes) {
+    const double margin = 2 * (double(reachPx) + 3 * kMapAlignPx);
+    const double texels =
+        (frame.width() + margin) * kMapTexels * kMapTexels * 4 / 3; // of a row, with all levels
+    const double rowBytes = texels * (1 + kMapLayers) * sizeof(vec4);
+    const double rows = double(bytes) / rowBytes - margin;
+    if (rows < kTileSize)
+        throw Error(
+            ErrorCode::resources,
+            fmt::format("the memory budget is too small for a picture {} pixels wide with blur of {:.0f} "
+                        "pixels: for its layer map it has to be {:.0f} MiB",
+                        frame.width(), reachPx, 2 * rowBytes * (kTileSize + margin) / (1 << 20) + 1));
+    return int(std::min(rows, double(frame.height() + kTileSize)));
+}
+
+MapLayout chooseMap(const GridLayout& grid, const Rect& region, float reachPx, float spreadPerPx) {
+    const float margin = reachPx + float(2 * kMapAlignPx); // tiles beyond the region, the coarsest texels
+    const vec2 extent = vec2(grid.brickCount * grid.cellsPerBrick) / grid.invCell;
+    const vec2 low = glm::max(vec2(float(region.x0), float(region.y0)) - margin, grid.origin);
+    const vec2 high = glm::min(vec2(float(region.x1), float(region.y1)) + margin, grid.origin + extent);
+    MapLayout map{};
+    map.origin = aligned(low, false);
+    map.size = kMapTexels * glm::max(aligned(high, true) - map.origin, ivec2(kMapAlignPx));
+    map.surfaceGap = grid.surfaceGap;
+    map.reachPx = reachPx;
+    map.spreadPerPx = spreadPerPx;
+    map.levels = 1;
+    for (float spacing = float(kMapTexels) * spreadPerPx * largestSlope(grid);
+         spacing >= kLevelSpacing && map.levels < kMapLevels; spacing *= 0.5f)
+        ++map.levels;
+    return map;
+}
+
+ivec2 levelSize(const MapLayout& map, int level) {
+    ivec2 size = map.size;
+    for (; level > 0; --level) size /= 2;
+    return size;
+}
+
+std::size_t levelBegin(const MapLayout& map, int level) {
+    std::size_t begin = 0;
+    for (int below = 0; below < level; ++below) {
+        const ivec2 size = levelSize(map, below);
+        begin += std::size_t(size.x) * size.y;
+    }
+    return begin;
+}
+
+OutputLayout mapTiles(const MapLayout& map) {
+    OutputLayout layout{};
+    layout.regionOrigin = map.origin;
+    layout.regionSize = map.size / kMapTexels;
+    layout.tileCount = layout.regionSize / kTileSize;
+    layout.outputsPerPixel = 1;
+    return layout;
+}
+
+vec2 texelCenter(const MapLayout& map, ivec2 texel) {
+    return vec2(map.origin) + (vec2(texel) + 0.5f) * (1.f / float(kMapTexels));
+}
+
+namespace {
+
+/// The layers of the samples within `searchRadius`.
+MapTexel resolveWithin(const SearchContext& context, vec2 p, float radius, float searchRadius) {
+    const GridLayout& grid = context.bins.grid;
+    const float widening = radius / grid.radiusPx;
+    const float fullWeight = kFullWeight * widening * widening;
+    MapTexel texel{vec4(kNoLayer, kNoLayer, kNoLayer, 0), {}};
+    Surface surface;
+    const auto visit = [&](const Candidate& candidate) {
+        if (surface.count > 0 && candidate.slope > surface.slopeMax + grid.surfaceGap) {
+            close(texel, surface, fullWeight, false);
+            surface = Surface{};
+            if (int(texel.head.w) == kMapLayers) return false;
+        }
+        addSample(surface, candidate, radianceOf(context, candidate), radius);
+        return true;
+    };
+    forEachCandidate(context, Output{p, vec2(0), 0, 0}, searchRadius, visit,
+                     [](const Brick&) { return false; });
+    if (surface.count > 0) close(texel, surface, fullWeight, true);
+    return texel;
+}
+
+} // namespace
+
+MapTexel resolveTexel(const SearchContext& context, vec2 p, float radius) {
+    const MapTexel texel = resolveWithin(context, p, radius, radius);
+    return texel.head.w > 1 ? resolveWithin(context, p, radius, 2 * radius) : texel;
+}
+
+namespace {
+
+/// The four texels below one.
+struct Children {
+    std::array<vec4, 4> heads;
+    std::array<std::size_t, 4> texels;
+};
+
+float leastAbove(const Children& children, float slope) {
+    float least = kNoLayer;
+    for (const vec4& head : children.heads)
+        for (int i = 0; i < kMapLayers; ++i)
+            if (head[i] > slope) least = glm::min(least, head[i]);
+    return least;
+}
+
+/// The layers of all children within [begin, end] as one; false when there are none left.
+bool nextLayer(const Children& children, float gap, float& begin, float& end) {
+    begin = end = leastAbove(children, end);
+    if (begin >= kNoLayer) return false;
+    for (int i = 0; i < 4 * kMapLayers; ++i) {
+        const float next = leastAbove(children, end);
+        if (next > end + gap) break;
+        end = next;
+    }
+    return true;
+}
+
+MapTexel merge(const LayerMap& map, const Children& children) {
+    MapTexel texel{vec4(kNoLayer, kNoLayer, kNoLayer, 0), {}};
+    float begin = 0, end = -std::numeric_limits<float>::infinity();
+    for (int count = 0; count < kMapLayers && nextLayer(children, map.layout.surfaceGap, begin, end);
+         ++count) {
+        vec3 sum(0);
+        float coverage = 0, slopeSum = 0;
+        for (int child = 0; child < 4; ++child)
+            for (int i = 0; i < kMapLayers; ++i) {
+                const float slope = children.heads[std::size_t(child)][i];
+                if (!(slope >= begin && slope <= end)) continue;
+                const vec4& layer = map.layers[children.texels[std::size_t(child)] * kMapLayers + i];
+                sum += layer.w * vec3(layer);
+                coverage += layer.w;
+                slopeSum += layer.w * slope;
+            }
+        texel.head[count] = slopeSum / coverage;
+        texel.layers[std::size_t(count)] = vec4(sum / coverage, glm::min(0.25f * coverage, 1.f));
+        texel.head.w = float(count + 1);
+    }
+    return texel;
+}
+
+void store(LayerMap& map, std::size_t index, const MapTexel& texel) {
+    map.heads[index] = texel.head;
+    for (int i = 0; i < kMapLayers; ++i) map.layers[index * kMapLayers + i] = texel.layers[std::size_t(i)];
+}
+
+} // namespace
+
+void reduceLevel(LayerMap& map, int level) {
+    const ivec2 below = levelSize(map.layout, level - 1), size = levelSize(map.layout, level);
+    const std::size_t source = levelBegin(map.layout, level - 1), target = levelBegin(map.layout, level);
+    parallelFor(0, std::size_t(size.y), 8, [&](std::size_t first, std::size_t last) {
+        for (int y = int(first); y < int(last); ++y)
+            for (int x = 0; x < size.x; ++x) {
+                Children children;
+                for (std::size_t child = 0; child < 4; ++child) {
+                    const std::size_t column = 2 * std::size_t(x) + child % 2,
+                                      row = 2 * std::size_t(y) + child / 2;
+                    children.texels[child] = source + row * below.x + column;
+                    children.heads[child] = map.heads[children.texels[child]];
+                }
+                store(map, target + std::size_t(y) * size.x + x, merge(map, children));
+            }
+    });
+}
+
+LayerMap makeLayerMap(const Bins& bins, const MapLayout& layout) {
+    LayerMap map;
+    map.layout = layout;
+    const std::size_t texels = levelBegin(layout, layout.levels);
+    map.heads.resize(texels);
+    map.layers.resize(texels * kMapLayers);
+
+    const float radius = mapRadius(bins.grid);
+    const OutputLayout tiles = mapTiles(layout);
+    const LensBox center{vec2(0), vec2(0)};
+    const TileLists lists = makeTileLists(bins, tiles, {&center, 1}, 2 * radius);
+    parallelFor(0, std::size_t(layout.size.y), 8, [&](std::size_t first, std::size_t last) {
+        for (int y = int(first); y < int(last); ++y)
+            for (int x = 0; x < layout.size.x; ++x) {
+                const ivec2 tile = ivec2(x, y) / (kTileSize * kMapTexels);
+                const std::size_t list = std::size_t(tile.y) * tiles.tileCount.x + tile.x;
+                const std::span<const uint> bricks(lists.bricks.data() + lists.start[list],
+                                                   lists.start[list + 1] - lists.start[list]);
+                store(map, std::size_t(y) * layout.size.x + x,
+                      resolveTexel({bins, bricks}, texelCenter(layout, ivec2(x, y)), radius));
+            }
+    });
+    for (int level = 1; level < layout.levels; ++level) reduceLevel(map, level);
+    return map;
+}
+
+} // namespace slant

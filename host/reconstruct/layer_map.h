@@ -1,0 +1,59 @@
+// The layer map: what the lens centre sees, and what lies hidden behind it, half a pixel at a time.
+//
+// The light field of a scene that keeps still depends on pinhole position and slope alone, up to what hides
+// what. So the samples around a pinhole position are told apart into surfaces once, for all outputs; each
+// keeps its mean slope and radiance and how much of the texel it covers. Through any lens position the
+// surfaces are then found by lookups. Higher levels are means over 2x2 texels, for lens positions that lie
+// far apart.
+#pragma once
+#include "reconstruct/bins.h"
+#include "reconstruct/candidates.h"
+#include "shared/layers.h"
+
+#include <array>
+#include <vector>
+
+namespace slant {
+
+struct LayerMap {
+    MapLayout layout{};
+    std::vector<vec4>
+        heads; ///< [texel]: slopes of its layers, front to back, kNoLayer for the rest; their number
+    std::vector<vec4> layers; ///< [texel][kMapLayers]: mean radiance, coverage in (0, 1]; zeros for the rest
+};
+
+/// How far a surface may move over the lens, pixels, so that the map serves it: as far as any does, up to a
+/// bound.
+float mapReach(const GridLayout& grid, float lensScale);
+/// Rows of a band whose map fits into so many bytes. Throws Error(resources) where a row of tiles does not.
+int mapRows(const Rect& frame, float reachPx, std::uint64_t bytes);
+
+/// The texels that outputs of `region` can come to see, where the grid has samples; no levels coarser than
+/// lens positions `spreadPerPx` apart on a surface blurred by a pixel need.
+MapLayout chooseMap(const GridLayout& grid, const Rect& region, float reachPx, float spreadPerPx);
+/// Texels of a level, and of all levels before it.
+ivec2 levelSize(const MapLayout& map, int level);
+std::size_t levelBegin(const MapLayout& map, int level);
+/// Pinhole position of a texel of level 0.
+vec2 texelCenter(const MapLayout& map, ivec2 texel);
+
+/// Width of the tent of a texel of level 0, pixels; it is searched for within twice that.
+float mapRadius(const GridLayout& grid);
+
+struct MapTexel {
+    vec4 head;
+    std::array<vec4, kMapLayers> layers;
+};
+/// The surfaces around pinhole position p, a tent over `radius`; where there are several, told apart by the
+/// samples within twice that, as resolveVisibility does.
+MapTexel resolveTexel(const SearchContext& context, vec2 p, float radius);
+
+/// The map's pixels as outputs through the lens centre, for lists.
+OutputLayout mapTiles(const MapLayout& map);
+
+LayerMap makeLayerMap(const Bins& bins, const MapLayout& layout);
+
+/// Fills a level of the map from the one below.
+void reduceLevel(LayerMap& map, int level);
+
+} // namespace slant

@@ -1,0 +1,64 @@
+// What C++ and GLSL share of the layer map and of the outputs that are taken from it.
+#ifndef SLANT_SHARED_LAYERS_H
+#define SLANT_SHARED_LAYERS_H
+#include "shared/reconstruct.h"
+
+SLANT_SHARED_BEGIN
+
+/// Layers that a texel of the map keeps, front to back.
+SLANT_SHARED_CONSTANT int kMapLayers = 3;
+SLANT_SHARED_CONSTANT int kMapLevels = 6;
+/// Texels of level 0 along a pixel's side.
+SLANT_SHARED_CONSTANT int kMapTexels = 2;
+/// A texel of level 0 is a tent over this many pixels to each side, or over R where that is more.
+SLANT_SHARED_CONSTANT float kMapTentPx = 0.5f;
+/// Maps begin and end at multiples of this many pixels, so that each has the same texels as any other at all
+/// levels.
+SLANT_SHARED_CONSTANT int kMapAlignPx = 16;
+/// Slope of a layer that a texel does not have.
+SLANT_SHARED_CONSTANT float kNoLayer = 1e30f;
+
+/// An output is taken from the map where each cluster of surfaces, told apart by gaps in slope, keeps clear
+/// of focus by this slope, and moves less than this, in pixels, against itself over the lens, and where there
+/// are no more of them.
+SLANT_SHARED_CONSTANT float kLeastSlope = 0.5f;
+SLANT_SHARED_CONSTANT float kWidestClusterPx = 8.0f;
+SLANT_SHARED_CONSTANT uint kMaxClusters = 16u;
+/// What shows through less than this is not looked for.
+SLANT_SHARED_CONSTANT float kOpaque = 0.00390625f;
+/// Lens positions of an output lie this far apart on a surface, in texels, before it is looked up a level
+/// higher.
+SLANT_SHARED_CONSTANT float kLevelSpacing = 3.0f;
+
+/// The texels of the map: level 0 has kMapTexels a pixel along each side; each further level half as many,
+/// and is stored after the one before.
+struct MapLayout {
+    ivec2 origin; // pixel at the corner of the first texel
+    ivec2 size;   // texels of level 0
+    int levels;
+    float surfaceGap;  // as GridLayout
+    float reachPx;     // a surface that moves further over the lens may lie outside the map
+    float spreadPerPx; // distance of lens positions on a surface that is blurred over a pixel to each side
+};
+
+/// layer_reduce: one level from the one below.
+struct ReducePush {
+    ivec2 size;  // texels of the level below
+    uint source; // its first texel
+    uint target; // first texel of this level
+    float surfaceGap;
+};
+
+/// rungs, layers.
+struct LayerPush {
+    OutputLayout outputs;
+    MapLayout map;
+    uint firstGroup; // lens groups of the chunk
+    uint count;      // lists
+    int groupBits;   // 2^groupBits outputs of a pixel share a list
+    float lensScale; // as OutputPush
+};
+
+SLANT_SHARED_END
+
+#endif
