@@ -5,6 +5,8 @@
 #include "image/png.h"
 #include "scene/read_scene.h"
 
+#include <filesystem>
+
 namespace slant::commands {
 namespace {
 
@@ -46,8 +48,13 @@ void addPictureOptions(CLI::App& command, PictureOptions& options) {
     addRunOptions(command, options.common);
 }
 
+std::string rungsPath(const PictureOptions& options) {
+    return std::filesystem::path(options.output).replace_extension(".rungs.png").string();
+}
+
 void checkOutputs(const PictureOptions& options) {
-    for (const std::string& path : {options.output, options.png, options.common.statsPath})
+    for (const std::string& path : {options.output, options.png, options.common.statsPath,
+                                    options.common.debugRungs ? rungsPath(options) : ""})
         if (!path.empty()) checkWritable(path);
 }
 

@@ -62,6 +62,7 @@ public:
             picture.common.statsPath.clear();
             ReconstructReport report;
             const Image image = make(distances_[i], frames, report);
+            writeDebugImage(picture, file_.field.frame, report);
             writeOutputs(picture, image, details(distances_[i], report), report.stages, frameWatch.seconds());
         }
         frames.endShare();
@@ -75,6 +76,7 @@ private:
     void single(TerminalMonitor& monitor, const Stopwatch& watch) {
         ReconstructReport report;
         const Image image = make(distances_[0], monitor, report);
+        writeDebugImage(options_.picture, file_.field.frame, report);
         writeOutputs(options_.picture, image, details(distances_[0], report),
                      stagesOf(monitor.stages(), report), watch.seconds());
     }

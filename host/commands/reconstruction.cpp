@@ -1,5 +1,6 @@
 #include "commands/reconstruction.h"
 
+#include "image/png.h"
 #include "reconstruct/cpu_reconstructor.h"
 #include "reconstruct/stage_compare.h"
 #include "reconstruct/window.h"
@@ -97,6 +98,7 @@ void addDetails(nlohmann::ordered_json& details, const CommonOptions& common, co
     if (common.method != Method::box) {
         details["outSpp"] = common.outSpp;
         details["outputs"] = report.outputs;
+        if (common.method == Method::ladder) details["layered"] = report.layered;
         details["visibility"] = report.visibility;
         details["widened"] = report.widened;
         details["holes"] = report.holes;
@@ -109,6 +111,13 @@ void addDetails(nlohmann::ordered_json& details, const CommonOptions& common, co
         details["windowDelta"] = search.lensStep;
         details["windowFill"] = search.fill != 0;
     }
+}
+
+void writeDebugImage(const PictureOptions& options, const Rect& frame, const ReconstructReport& report) {
+    if (!options.common.debugRungs) return;
+    Image share(frame, {"Y"});
+    share.pixels = report.mapShare;
+    writePng(rungsPath(options), toSrgb8(share));
 }
 
 std::vector<StageStats> stagesOf(std::vector<StageStats> stages, const ReconstructReport& report) {

@@ -1,6 +1,6 @@
 // What `render` and `reconstruct` share: from a light field to its picture.
 #pragma once
-#include "commands/options.h"
+#include "commands/picture_job.h"
 
 #include "compute/backend.h"
 
@@ -23,6 +23,9 @@ Image reconstruct(Backend& backend, const LightField& field, const ReconstructOp
 /// Adds to `details` how the picture was made.
 void addDetails(nlohmann::ordered_json& details, const CommonOptions& common, const LightField& field,
                 const Backend& backend, const ReconstructReport& report);
+
+/// The picture of --debug-image, if it was asked for.
+void writeDebugImage(const PictureOptions& options, const Rect& frame, const ReconstructReport& report);
 
 /// `stages` as the monitor saw them, with what the report says of the reconstruction in place of its own.
 std::vector<StageStats> stagesOf(std::vector<StageStats> stages, const ReconstructReport& report);

@@ -42,6 +42,7 @@ void runRender(RenderOptions options) {
     warnOf(defects, report.emptyPixels, monitor);
     nlohmann::ordered_json details = {{"scene", options.picture.input}};
     addDetails(details, common, field, backend, report);
+    writeDebugImage(options.picture, field.frame, report);
     writeOutputs(options.picture, image, details, stagesOf(monitor.stages(), report), watch.seconds());
 }
 

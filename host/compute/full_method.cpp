@@ -70,7 +70,8 @@ private:
 
     /// What the layer map serves of a chunk, if there is one; the lists that are left: tile x, y, group,
     /// list.
-    std::vector<uvec4> takeFromMap(const DeviceLists& lists, const OutputPush& push, const Buffer& dense) {
+    std::vector<uvec4> takeFromMap(const Band& band, const DeviceLists& lists, const OutputPush& push,
+                                   const Buffer& dense) {
         std::vector<uint> rungs(lists.start.texels() - 1, 0);
         if (layerPasses_) {
             const Buffer buffer(run_.device, TexelFormat::r32ui, rungs.size());
@@ -79,6 +80,7 @@ private:
             run_.commands.run();
             buffer.download(rungs);
             run_.observe("rungs", buffer);
+            addMapShare(run_.report.mapShare, run_.field.frame, band, rungs, pattern_.groups.size());
         }
         std::vector<uvec4> left;
         uint list = 0;
@@ -108,7 +110,7 @@ private:
             const DeviceLists lists = listPasses_.run(run_.commands, bins_, push, 2 * bins_.grid.radiusPx);
             run_.observe("lists.start", lists.start);
             run_.observe("lists.bricks", lists.ids);
-            const std::vector<uvec4> left = takeFromMap(lists, push, dense);
+            const std::vector<uvec4> left = takeFromMap(band, lists, push, dense);
             const OutputPasses::Result result =
                 outputPasses_.run(run_.commands, listPasses_, bins_, lists, left, push, dense);
             if (!result.overflowed.empty()) finishOnCpu(band, push, result.overflowed, dense);

@@ -53,7 +53,10 @@ void fullMethod(CpuRun& run) {
             }
             run.observe("lists.start", chunk.lists.start);
             run.observe("lists.bricks", chunk.lists.bricks);
-            if (map) run.observe("rungs", chunk.rungs);
+            if (map) {
+                run.observe("rungs", chunk.rungs);
+                addMapShare(run.report.mapShare, frame, band, chunk.rungs, pattern.groups.size());
+            }
             run.observe("dense", chunk.dense.samples);
             StageTimer timer(run.report, "pixel_filter", "outputs");
             timer.items = chunk.dense.samples.size();

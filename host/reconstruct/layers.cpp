@@ -93,7 +93,7 @@ std::vector<Cluster> clustersOf(const Bins& bins, std::span<const uint> bricks, 
     const float lensRadius =
         glm::min(glm::sqrt(farthest.x * farthest.x + farthest.y * farthest.y), lensScale);
     std::vector<Cluster> clusters;
-    bool fits = true;
+    bool fits = bricks.size() <= std::size_t(kMaxLoopIterations);
     Cluster open{std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()};
     const auto close = [&] {
         const bool inFocus = glm::max(open.slopeMin, -open.slopeMax) < kLeastSlope;
@@ -150,6 +150,21 @@ std::optional<vec3> throughLayers(const LayerMap& map, std::span<const Cluster> 
         mean += rgb + transmittance * last;
     }
     return mean / float(points.size());
+}
+
+void addMapShare(std::vector<float>& share, const Rect& frame, const Band& band, std::span<const uint> rungs,
+                 std::size_t groups) {
+    share.resize(frame.area());
+    const std::size_t columns = std::size_t(band.region.width() + kTileSize - 1) / kTileSize;
+    const std::size_t tiles = columns * (std::size_t(band.region.height() + kTileSize - 1) / kTileSize);
+    for (int y = band.y0; y < band.y1; ++y)
+        for (int x = frame.x0; x < frame.x1; ++x) {
+            const std::size_t row = std::size_t(y - band.region.y0) / kTileSize,
+                              column = std::size_t(x - band.region.x0) / kTileSize;
+            float& sum = share[std::size_t(y - frame.y0) * frame.width() + (x - frame.x0)];
+            for (std::size_t list = row * columns + column; list < rungs.size(); list += tiles)
+                if (rungs[list] != 0) sum += 1 / float(groups);
+        }
 }
 
 } // namespace slant

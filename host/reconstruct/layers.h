@@ -7,6 +7,7 @@
 #pragma once
 #include "reconstruct/layer_map.h"
 #include "reconstruct/output_pattern.h"
+#include "reconstruct/plan.h"
 
 #include <optional>
 
@@ -32,5 +33,10 @@ float spreadPerPx(const OutputPattern& pattern);
 /// Mean radiance of a pixel seen from `points`; nothing where one of them meets no surface.
 std::optional<vec3> throughLayers(const LayerMap& map, std::span<const Cluster> clusters, vec2 pixelCenter,
                                   std::span<const vec4> points);
+
+/// Adds to `share`, of the pixels of `frame` that a band finishes, what a chunk of its lists brings: of
+/// `groups` in all, those whose rung is not 0.
+void addMapShare(std::vector<float>& share, const Rect& frame, const Band& band, std::span<const uint> rungs,
+                 std::size_t groups);
 
 } // namespace slant

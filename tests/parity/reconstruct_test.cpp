@@ -50,6 +50,7 @@ protected:
         EXPECT_EQ(expected.report.holes, got.report.holes);
         EXPECT_EQ(expected.report.outputs, got.report.outputs);
         EXPECT_EQ(expected.report.layered, got.report.layered);
+        EXPECT_TRUE(expected.report.mapShare == got.report.mapShare);
         EXPECT_EQ(expected.report.visibility, got.report.visibility);
         EXPECT_EQ(expected.report.widened, got.report.widened);
         for (const float value : got.image.pixels) EXPECT_TRUE(std::isfinite(value));
