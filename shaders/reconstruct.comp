@@ -12,7 +12,7 @@ layout(set = 0, binding = 7, rgba32f) uniform writeonly imageBuffer dense;
 layout(set = 0, binding = 8, r32ui) uniform uimageBuffer counters;
 layout(set = 0, binding = 9, r32ui) uniform writeonly uimageBuffer visibilityList;
 layout(set = 0, binding = 10, r32ui) uniform writeonly uimageBuffer overflowList;
-layout(set = 0, binding = 11) uniform utextureBuffer todo; // lists: tile x, y, lens group, list
+layout(set = 0, binding = 11) uniform utextureBuffer left; // lists to search for: tile x, y, lens group, list
 
 struct Sweep {
     bool running;
@@ -48,7 +48,7 @@ void main() {
     const int groupBits = push.groupBits; // 2^groupBits outputs of a pixel share a list
     const uint workgroup = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
     if (workgroup >> groupBits >= push.count) return;
-    const uvec4 item = texelFetch(todo, int(workgroup >> groupBits));
+    const uvec4 item = texelFetch(left, int(workgroup >> groupBits));
     const uvec2 tile = item.xy;
     const uint group = item.z, list = item.w;
     // Of the 64 << groupBits outputs of this list: eight neighbouring lanes take two lens positions of a square of two

@@ -174,7 +174,7 @@ void fillDefaults(ChartOptions& options, const CLI::App& command) {
     // `window` alone would take longer than a quick sweep may.
     if (!given("--methods"))
         sweep.methods =
-            methodsOf(options.quick ? "box,full" : fmt::format("{}", fmt::join(methodNames(), ",")));
+            methodsOf(options.quick ? "box,full,auto" : fmt::format("{}", fmt::join(methodNames(), ",")));
     if (!given("--spp")) sweep.samples = options.quick ? std::vector{2, 8} : std::vector{1, 2, 4, 8, 16};
     if (!given("--outputs")) sweep.outputs = {options.quick ? 64 : 128};
     if (!given("--devices")) sweep.devices = {"auto"};

@@ -27,18 +27,18 @@ OutputPasses::Counters OutputPasses::counters() const {
 }
 
 OutputPasses::Result OutputPasses::run(CommandList& commands, ListPasses& listPasses, const DeviceBins& bins,
-                                       const DeviceLists& lists, std::span<const uvec4> todo, OutputPush push,
+                                       const DeviceLists& lists, std::span<const uvec4> left, OutputPush push,
                                        const Buffer& dense) {
     reserve(dense.texels());
     commands.fill(counters_, 0);
     push.radiusPx = bins.grid.radiusPx;
-    push.count = uint(todo.size());
-    Buffer todoList(device_, TexelFormat::rgba32ui, todo.size());
-    todoList.upload(todo);
+    push.count = uint(left.size());
+    Buffer leftLists(device_, TexelFormat::rgba32ui, left.size());
+    leftLists.upload(left);
     commands.dispatch(
         nearest_,
         {bins.positions, bins.radiances, bins.cellStart, lists.start, lists.cellBases, lists.bricks, pattern_,
-         dense, counters_, visibilityList_, overflowList_, todoList},
+         dense, counters_, visibilityList_, overflowList_, leftLists},
         push, nearest_.gridFor((std::uint64_t(push.count) * kTileSize * kTileSize) << push.groupBits));
     commands.run();
 

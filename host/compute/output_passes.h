@@ -16,11 +16,11 @@ public:
         std::vector<uint> overflowed; ///< indices into dense that are still to be done, ascending
     };
 
-    /// Fills `dense` (planes of region pixels) for the lists `todo` (tile x, y, lens
+    /// Fills `dense` (planes of region pixels) for the lists `left` (tile x, y, lens
     /// group, list); `lists` have a margin of 2 R.
     /// Runs on `commands`, which must be empty, and leaves it empty.
     Result run(CommandList& commands, ListPasses& listPasses, const DeviceBins& bins,
-               const DeviceLists& lists, std::span<const uvec4> todo, OutputPush push, const Buffer& dense);
+               const DeviceLists& lists, std::span<const uvec4> left, OutputPush push, const Buffer& dense);
 
 private:
     using Counters = std::vector<uint>;
