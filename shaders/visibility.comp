@@ -14,6 +14,10 @@ layout(set = 0, binding = 8, rgba32f) uniform writeonly imageBuffer dense;
 layout(set = 0, binding = 9, r32ui) uniform uimageBuffer counters;
 layout(set = 0, binding = 10, r32ui) uniform writeonly uimageBuffer holeList;
 layout(set = 0, binding = 11, r32ui) uniform writeonly uimageBuffer overflowList;
+layout(set = 0, binding = 12) uniform textureBuffer apertureTable;
+
+float apertureAt(int i) { return texelFetch(apertureTable, i).x; }
+#include "lib/output_pattern.glsl"
 
 struct Sweep {
     bool running;

@@ -5,7 +5,6 @@
 #include "lib/candidate.glsl"
 #include "lib/gaussian.glsl"
 #include "lib/invocation.glsl"
-#include "lib/output_pattern.glsl"
 #include "shared/window.h"
 
 layout(local_size_x = 64) in;
@@ -15,7 +14,11 @@ layout(set = 0, binding = 2) uniform utextureBuffer pattern;
 layout(set = 0, binding = 3, rgba32f) uniform writeonly imageBuffer dense;
 layout(set = 0, binding = 4, r32ui) uniform uimageBuffer counters;
 layout(set = 0, binding = 5, r32ui) uniform writeonly uimageBuffer overflowList;
+layout(set = 0, binding = 6) uniform textureBuffer apertureTable;
 layout(push_constant) uniform Push { WindowPush push; };
+
+float apertureAt(int i) { return texelFetch(apertureTable, i).x; }
+#include "lib/output_pattern.glsl"
 
 struct WindowSurface {
     int count;

@@ -23,6 +23,11 @@ public:
     SlopeModel slopeModel() const {
         return visit([](const auto& camera) { return camera.slopeModel(); });
     }
+    /// Over which lens positions are spread.
+    Aperture aperture() const {
+        const ThinLens* lens = std::get_if<ThinLens>(&kind_);
+        return lens ? lens->aperture() : Aperture();
+    }
     /// The lens, if the camera is of that kind.
     CompoundLens* compoundLens() { return std::get_if<CompoundLens>(&kind_); }
     const CompoundLens* compoundLens() const { return std::get_if<CompoundLens>(&kind_); }

@@ -7,7 +7,7 @@
 
 namespace slant {
 
-ThinLens::ThinLens(const PerspectiveCamera& camera, const Film& film) {
+ThinLens::ThinLens(const PerspectiveCamera& camera, const Film& film) : aperture_(camera.aperture) {
     FileLocation nowhere;
     if (!(camera.fovDegrees > 0 && camera.fovDegrees < 180))
         throw badInput(nowhere, "camera: fov {} is outside (0, 180) degrees", camera.fovDegrees);

@@ -36,12 +36,17 @@ void addFocusOptions(CLI::App& command, FocusOptions& options) {
                                   ->type_name("N");
     CLI::Option* const pinhole = command.add_flag_callback(
         "--pinhole", [&options] { options.apertureScale = 0.f; }, "no blur: the view from the lens's centre");
+    command
+        .add_option("--aperture", options.aperture,
+                    "its shape: disc, gaussian, square, pentagon, star, \"polygon BLADES [DEGREES]\", or an "
+                    "image file (default: as traced)")
+        ->type_name("SHAPE");
     scale->excludes(stop)->excludes(pinhole);
     stop->excludes(pinhole);
 }
 
 void checkFocusOptions(const FocusOptions& options, Method method) {
-    const bool otherLens = options.apertureScale || options.fStop;
+    const bool otherLens = options.apertureScale || options.fStop || !options.aperture.empty();
     if (options.refocuses() && (method == Method::box || method == Method::window))
         throw Error(
             ErrorCode::usage,

@@ -16,11 +16,12 @@ struct FocusOptions {
     int frames = 0;                     ///< of it; 0: a single picture
     std::optional<float> apertureScale; ///< of the traced lens radius
     std::optional<float> fStop;
+    std::string aperture; ///< name or image file of its shape; empty: as traced
 
     bool refocuses() const { return distance || frames > 0; }
 };
 
-/// --focus-distance, --focus-from, --focus-to, --frames, --aperture-scale, --f-stop, --pinhole
+/// --focus-distance, --focus-from, --focus-to, --frames, --aperture-scale, --f-stop, --pinhole, --aperture
 void addFocusOptions(CLI::App& command, FocusOptions& options);
 
 /// Throws Error(usage) for options that do not go together, and for a method that cannot do it.

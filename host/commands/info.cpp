@@ -82,6 +82,7 @@ void printText(const std::string& path, const FieldFile& file, const FieldSummar
         line("field of view", fmt::format("{:.4g} degrees, {:.6g} pixels per unit tangent",
                                           *camera.fovDegrees, *camera.pixelsPerTangent));
     line("pixel filter", details.filter ? filterText(*details.filter) : "not named");
+    line("aperture", field.aperture.shape().name);
     line("seed", fmt::to_string(details.seed));
     if (!details.source.empty()) line("source", details.source);
 
@@ -133,6 +134,7 @@ void printJson(const std::string& path, const FieldFile& file, const FieldSummar
         {"lensRadius", details.lensRadius},
         {"focalLength", details.focalLength},
         {"unit", details.unit},
+        {"aperture", field.aperture.shape().name},
         {"filter", details.filter ? nlohmann::ordered_json(filterText(*details.filter)) : nullptr},
         {"seed", details.seed},
         {"source", details.source},

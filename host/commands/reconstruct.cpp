@@ -30,6 +30,9 @@ FieldFile readFieldFor(const std::string& path, Monitor& monitor) {
     return file;
 }
 
+/// Share of a lens that need not be spoken of.
+constexpr double kNegligible = 0.005;
+
 /// One run: a field, and the pictures that are made of it.
 class Job {
 public:
@@ -40,12 +43,16 @@ public:
         common.seed = options_.seed.value_or(file_.details.seed);
         reconstruction_ = reconstructOptions(common, file_.details.filter.value_or(PixelFilter()), backend_);
         reconstruction_.lensScale = lensScale(options_.focus, file_.details);
+        if (!options_.focus.aperture.empty())
+            reconstruction_.aperture = Aperture(readAperture(options_.focus.aperture, "", {}));
         checkBudget(file_.field.frame, file_.field.samplesPerPixel, reconstruction_);
-        if (reconstruction_.lensScale > 1)
+        const double outside = shareOutside(apertureOf(file_.field, reconstruction_),
+                                            reconstruction_.lensScale, file_.field.aperture);
+        if (outside > kNegligible)
             monitor.warn(
-                fmt::format("a lens {:.4g} times as wide as the traced one is extrapolation: what only its "
-                            "rim would see is missing",
-                            reconstruction_.lensScale));
+                fmt::format("{:.2g} % of this lens lies outside the traced one and is extrapolation: "
+                            "what only that part would see is missing",
+                            100 * outside));
     }
 
     void run(TerminalMonitor& monitor, const Stopwatch& watch) {
@@ -106,6 +113,7 @@ private:
         json["c2"] = slopeModel_.c2;
         if (distance) json["focusDistance"] = *distance;
         if (reconstruction_.lensScale != 1) json["apertureScale"] = reconstruction_.lensScale;
+        if (reconstruction_.aperture) json["aperture"] = reconstruction_.aperture->shape().name;
         return json;
     }
 

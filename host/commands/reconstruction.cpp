@@ -95,6 +95,7 @@ void addDetails(nlohmann::ordered_json& details, const CommonOptions& common, co
                     {"overscanTop", field.frame.y0 - field.bounds.y0},
                     {"overscanRight", field.bounds.x1 - field.frame.x1},
                     {"overscanBottom", field.bounds.y1 - field.frame.y1}});
+    if (!field.aperture.isDisc()) details["aperture"] = field.aperture.shape().name;
     if (common.method != Method::box) {
         details["outSpp"] = common.outSpp;
         details["outputs"] = report.outputs;

@@ -18,7 +18,7 @@ public:
     explicit FullMethod(ComputeRun& run)
         : run_(run), bins_(run.bin()),
           pattern_(makeOutputPattern(run.options.outputsPerPixel, largestSlope(bins_.grid),
-                                     run.options.lensScale)),
+                                     run.options.lensScale, apertureOf(run.field, run.options))),
           listPasses_(run.device, pattern_.groups), outputPasses_(run.device, pattern_) {
         if (run.options.method == Method::ladder) layerPasses_.emplace(run.device, pattern_);
     }

@@ -29,7 +29,7 @@ private:
 
     Device& device_;
     Pass nearest_, visibility_;
-    Buffer pattern_;
+    Buffer pattern_, aperture_;
     Buffer counters_;
     Buffer visibilityList_, holeList_, overflowList_;
 };

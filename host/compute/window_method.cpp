@@ -19,15 +19,18 @@ class WindowMethod {
 public:
     explicit WindowMethod(ComputeRun& run)
         : run_(run), samples_(windowSamples(run.field)), search_(windowSearch(run.field, run.options.window)),
-          pattern_(makeOutputPattern(run.options.outputsPerPixel, 0, run.options.lensScale)),
+          pattern_(makeOutputPattern(run.options.outputsPerPixel, 0, run.options.lensScale,
+                                     apertureOf(run.field, run.options))),
           pass_(run.device, "window"), positions_(uploaded(run.device, samples_.positions)),
           radiances_(uploaded(run.device, samples_.radiances)),
           entries_(run.device, TexelFormat::rgba32ui, pattern_.entries.size()),
+          aperture_(run.device, TexelFormat::r32f, pattern_.aperture.table().size()),
           counters_(run.device, TexelFormat::r32ui, kCounters),
           plan_(planOutputs(run.field.frame, run.film.filter(), pattern_, run.maxSamples)),
           dense_(run.device, TexelFormat::rgba32f, mostSamples()),
           overflowList_(run.device, TexelFormat::r32ui, mostSamples()) {
         entries_.upload(std::span(pattern_.entries));
+        aperture_.upload(pattern_.aperture.table());
     }
 
     void fill() {
@@ -79,8 +82,9 @@ private:
             return all;
         }
         run_.commands.fill(counters_, 0);
-        run_.commands.dispatch(pass_, {positions_, radiances_, entries_, dense_, counters_, overflowList_},
-                               push, pass_.gridFor(push.count));
+        run_.commands.dispatch(
+            pass_, {positions_, radiances_, entries_, dense_, counters_, overflowList_, aperture_}, push,
+            pass_.gridFor(push.count));
         run_.commands.run();
         std::vector<uint> counts(kCounters);
         counters_.download(std::span(counts));
@@ -110,7 +114,7 @@ private:
     WindowSearch search_;
     OutputPattern pattern_;
     Pass pass_;
-    Buffer positions_, radiances_, entries_, counters_;
+    Buffer positions_, radiances_, entries_, aperture_, counters_;
     Plan plan_;
     Buffer dense_, overflowList_;
 };

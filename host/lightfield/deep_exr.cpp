@@ -135,9 +135,10 @@ void readAttributes(const FileLocation& where, const Imf::Header& header, bool s
         const std::string name = i.name(), prefix = "slant:";
         if (!name.starts_with(prefix)) continue;
         if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&i.attribute()))
-            setDetail(file.details, where, name.substr(prefix.size()), text->value());
+            setDetail(file.field, file.details, where, name.substr(prefix.size()), text->value());
         else if (const auto* number = dynamic_cast<const Imf::FloatAttribute*>(&i.attribute()))
-            setDetail(file.details, where, name.substr(prefix.size()), fmt::to_string(number->value()));
+            setDetail(file.field, file.details, where, name.substr(prefix.size()),
+                      fmt::to_string(number->value()));
     }
 }
 
@@ -247,7 +248,7 @@ Imf::Header makeHeader(const LightField& field, const FieldDetails& details,
         if (const float value = field.slopeModel.*constant.value; constant.required || value != 0)
             header.insert(constant.name, Imf::FloatAttribute(value));
     header.insert("slant:frame", Imf::Box2iAttribute(toBox(field.frame)));
-    for (const auto& [name, value] : metadataOf(details)) {
+    for (const auto& [name, value] : metadataOf(field, details)) {
         if (const auto* text = std::get_if<std::string>(&value))
             header.insert(name, Imf::StringAttribute(*text));
         else

@@ -1,6 +1,7 @@
 #include "lightfield/field_details.h"
 
 #include "base/suggest.h"
+#include "scene/spelling.h"
 
 #include <array>
 #include <charconv>
@@ -55,6 +56,12 @@ float parseLength(const FileLocation& location, std::string_view name, const std
     return value;
 }
 
+Aperture readShape(const FileLocation& location, const std::string& text) {
+    const std::optional<ApertureShape> shape = parseAperture(text, location);
+    if (!shape) throw badInput(location, "aperture '{}' is no shape that is known", printable(text));
+    return Aperture(*shape);
+}
+
 std::uint64_t parseSeed(const FileLocation& location, const std::string& text) {
     std::uint64_t seed = 0;
     const char* const last = text.data() + text.size();
@@ -92,8 +99,9 @@ std::optional<std::vector<double>> parseNumbers(std::string_view text, std::size
     return numbers;
 }
 
-Metadata metadataOf(const FieldDetails& details) {
+Metadata metadataOf(const LightField& field, const FieldDetails& details) {
     Metadata metadata{{"slant:seed", fmt::to_string(details.seed)}};
+    if (!field.aperture.isDisc()) metadata["slant:aperture"] = textOf(field.aperture.shape());
     if (details.filter) metadata["slant:filter"] = filterText(*details.filter);
     if (details.lensRadius > 0) metadata["slant:lensRadius"] = details.lensRadius;
     if (details.focalLength > 0) metadata["slant:focalLength"] = details.focalLength;
@@ -102,10 +110,12 @@ Metadata metadataOf(const FieldDetails& details) {
     return metadata;
 }
 
-bool setDetail(FieldDetails& details, const FileLocation& location, std::string_view name,
+bool setDetail(LightField& field, FieldDetails& details, const FileLocation& location, std::string_view name,
                const std::string& value) {
     if (name == "filter")
         details.filter = parseFilter(location, value);
+    else if (name == "aperture")
+        field.aperture = readShape(location, value);
     else if (name == "lensRadius")
         details.lensRadius = parseLength(location, name, value);
     else if (name == "focalLength")

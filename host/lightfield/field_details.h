@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/rect.h"
 #include "image/exr.h"
+#include "lightfield/lightfield.h"
 #include "scene/scene.h"
 
 #include <cstdint>
@@ -24,12 +25,13 @@ struct FieldDetails {
     std::uint64_t seed = 0;            ///< of the pattern
 };
 
-/// Everything but the film, without what is not known: strings, and floats for lengths.
-Metadata metadataOf(const FieldDetails& details);
+/// Everything but the film, without what is not known, and the field's aperture unless it is a disc: strings,
+/// and floats for lengths.
+Metadata metadataOf(const LightField& field, const FieldDetails& details);
 
 /// Takes in one of them, without its "slant:"; false if it has another name. Throws Error(badInput) for a
 /// value out of range.
-bool setDetail(FieldDetails& details, const FileLocation& location, std::string_view name,
+bool setDetail(LightField& field, FieldDetails& details, const FileLocation& location, std::string_view name,
                const std::string& value);
 
 /// "gaussian 1.5 1.5 0.5": kind, radii in pixels, then sigma of gaussian, B and C of mitchell, tau of sinc.

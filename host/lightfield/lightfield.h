@@ -1,6 +1,7 @@
 // The light field: the contract between whoever traces samples and whoever reconstructs an image from them.
 #pragma once
 #include "base/rect.h"
+#include "camera/aperture.h"
 #include "camera/slope_model.h"
 
 #include <cstdint>
@@ -42,6 +43,7 @@ struct LightField {
     SlopeModel slopeModel;
     std::vector<LightFieldSample> samples;
     std::vector<AuxiliarySample> auxiliary; ///< empty, or one a sample
+    Aperture aperture;                      ///< over which lens positions are spread
 };
 
 /// Whether any sample's slope is not that of its depth.

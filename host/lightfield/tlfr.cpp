@@ -121,7 +121,7 @@ private:
             frame_ = rect(value);
         } else if (name == "film") {
             film_ = rect(value);
-        } else if (!setDetail(file_.details, where_, name, value)) {
+        } else if (!setDetail(file_.field, file_.details, where_, name, value)) {
             throw badInput(where_, "'slant:{}' is not known", name);
         }
     }
@@ -181,7 +181,7 @@ std::string headerText(const LightField& field, const FieldDetails& details, boo
         header += fmt::format("slant:origin {} {}\n", field.bounds.x0, field.bounds.y0);
     if (field.frame != field.bounds) header += fmt::format("slant:frame {}\n", rectText(field.frame));
     if (details.film != field.frame) header += fmt::format("slant:film {}\n", rectText(details.film));
-    for (const auto& [name, value] : metadataOf(details)) {
+    for (const auto& [name, value] : metadataOf(field, details)) {
         const std::string spelt = std::visit([](const auto& v) { return fmt::to_string(v); }, value);
         header += oneLine(name + ' ' + spelt);
     }

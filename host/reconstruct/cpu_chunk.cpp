@@ -51,9 +51,7 @@ CpuChunk::Slot CpuChunk::slotAt(ivec2 position, int output) const {
 }
 
 Output CpuChunk::at(const Slot& slot) const {
-    const int output = firstOutput_ + slot.output;
-    return outputAt(slot.pixel, output, pattern_.entries[output], pattern_.lensCells, pattern_.lensScale,
-                    layout_.seed);
+    return outputAt(slot.pixel, firstOutput_ + slot.output, pattern_, layout_.seed);
 }
 
 void CpuChunk::store(const Slot& slot, const Output& output, const Reconstructed& result) {

@@ -28,8 +28,8 @@ void fullMethod(CpuRun& run) {
     const Bins bins = run.bin();
     const ReconstructOptions& options = run.options;
     const Rect& frame = run.field.frame;
-    const OutputPattern pattern =
-        makeOutputPattern(options.outputsPerPixel, largestSlope(bins.grid), options.lensScale);
+    const OutputPattern pattern = makeOutputPattern(options.outputsPerPixel, largestSlope(bins.grid),
+                                                    options.lensScale, apertureOf(run.field, options));
     const bool layered = options.method == Method::ladder;
     const float reach = mapReach(bins.grid, options.lensScale);
     const int maxRows =

@@ -119,14 +119,15 @@ std::vector<vec4> lensPoints(const OutputPattern& pattern) {
     std::vector<vec4> points;
     for (const glm::uvec4& entry : pattern.entries) {
         const vec2 cell = vec2(float(entry.w & 0xffffu), float(entry.w >> 16)) + 0.5f;
-        const vec2 uv = pattern.lensScale * concentricDisc(cell * (2.f / vec2(pattern.lensCells)) - 1.f);
+        const vec2 uv = pattern.lensScale * pattern.aperture.at(cell * (2.f / vec2(pattern.lensCells)) - 1.f);
         points.emplace_back(uv, 0, 0);
     }
     return points;
 }
 
 float spreadPerPx(const OutputPattern& pattern) {
-    return pattern.lensScale * std::sqrt(std::numbers::pi_v<float> / float(pattern.outputsPerPixel()));
+    const float area = std::numbers::pi_v<float> * float(pattern.aperture.meanTransmission());
+    return pattern.lensScale * std::sqrt(area / float(pattern.outputsPerPixel()));
 }
 
 std::optional<vec3> throughLayers(const LayerMap& map, std::span<const Cluster> clusters, vec2 pixelCenter,

@@ -28,6 +28,10 @@ bool usesOutputs(Method method) {
     return method != Method::box;
 }
 
+const Aperture& apertureOf(const LightField& field, const ReconstructOptions& options) {
+    return options.aperture ? *options.aperture : field.aperture;
+}
+
 std::uint64_t maxDenseSamples(const ReconstructOptions& options) {
     return options.memoryBytes / 2 / sizeof(vec4);
 }

@@ -42,11 +42,15 @@ struct ReconstructOptions {
     Method method = Method::ladder;
     int outputsPerPixel = 128; ///< a power of two; `box` has none
     float lensScale = 1;       ///< radius of the aperture over that of the traced one; 0 = pinhole; not `box`
+    std::optional<Aperture> aperture; ///< to look through; unset: the traced one; not `box`
     PixelFilter filter;
     WindowOptions window;
     std::uint64_t seed = 0;
     std::uint64_t memoryBytes = std::uint64_t(1) << 30; ///< for dense samples and lists
 };
+
+/// The aperture that outputs look through.
+const Aperture& apertureOf(const LightField& field, const ReconstructOptions& options);
 
 /// Dense samples that may be held at a time: half the memory budget.
 std::uint64_t maxDenseSamples(const ReconstructOptions& options);

@@ -51,22 +51,6 @@ uint morton(uint column, uint row) {
     return code;
 }
 
-/// A box around the image of a rectangle of [-1, 1]^2 in the disc: the curved sides are sampled, and the box
-/// padded by more than what lies between two samples.
-LensBox lensBox(vec2 squareMin, vec2 squareMax) {
-    constexpr int steps = 32;
-    LensBox box{vec2(2), vec2(-2)};
-    for (int j = 0; j <= steps; ++j)
-        for (int i = 0; i <= steps; ++i) {
-            const vec2 square = glm::mix(squareMin, squareMax, vec2(float(i), float(j)) / float(steps));
-            const vec2 uv = concentricDisc(square);
-            box.min = glm::min(box.min, uv);
-            box.max = glm::max(box.max, uv);
-        }
-    const vec2 pad = (box.max - box.min) * 0.01f;
-    return {box.min - pad, box.max + pad};
-}
-
 /// Cells of the lens under the entries [first, last), as one rectangle of [-1, 1]^2.
 LensBox groupBox(const OutputPattern& pattern, std::size_t first, std::size_t last) {
     vec2 low(2), high(-2);
@@ -77,7 +61,7 @@ LensBox groupBox(const OutputPattern& pattern, std::size_t first, std::size_t la
         low = glm::min(low, corner);
         high = glm::max(high, corner + 2.f / vec2(pattern.lensCells));
     }
-    const LensBox box = lensBox(low, high);
+    const LensBox box = pattern.aperture.box(low, high);
     return {pattern.lensScale * box.min, pattern.lensScale * box.max};
 }
 
@@ -105,21 +89,7 @@ uint owenScramble(uint reversed, uint seed) {
 
 } // namespace
 
-vec2 concentricDisc(vec2 square) {
-    const float a = square.x, b = square.y;
-    if (a == 0 && b == 0) return vec2(0);
-    const bool wide = glm::abs(a) > glm::abs(b);
-    const float r = wide ? a : b;
-    const float q = wide ? b / a : a / b;
-    const float x = q * 0.785398163f;
-    const float z = x * x;
-    const float sine =
-        x * (1.f + z * (-0.166666667f + z * (0.00833333333f + z * (-0.000198412698f + z * 2.75573192e-6f))));
-    const float cosine = 1.f + z * (-0.5f + z * (0.0416666667f + z * (-0.00138888889f + z * 2.48015873e-5f)));
-    return wide ? vec2(r * cosine, r * sine) : vec2(r * sine, r * cosine);
-}
-
-OutputPattern makeOutputPattern(int outputsPerPixel, float slopePx, float lensScale) {
+OutputPattern makeOutputPattern(int outputsPerPixel, float slopePx, float lensScale, Aperture aperture) {
     if (!isOutputCount(outputsPerPixel))
         throw Error(ErrorCode::usage,
                     fmt::format("outputs a pixel must be a power of two from 1 to {}, not {}",
@@ -132,6 +102,7 @@ OutputPattern makeOutputPattern(int outputsPerPixel, float slopePx, float lensSc
     const int columnBits = (bits + 1) / 2, rowBits = bits / 2;
     OutputPattern pattern;
     pattern.lensScale = lensScale;
+    pattern.aperture = std::move(aperture);
     pattern.lensCells = {1 << columnBits, 1 << rowBits};
     for (uint i = 0; i < uint(outputsPerPixel); ++i) {
         const uint column = columnBits ? sobol(lensX, i) >> (32 - columnBits) : 0;
@@ -149,8 +120,8 @@ OutputPattern makeOutputPattern(int outputsPerPixel, float slopePx, float lensSc
     return pattern;
 }
 
-Output outputAt(ivec2 pixel, int output, const glm::uvec4& entry, ivec2 lensCells, float lensScale,
-                uint seed) {
+Output outputAt(ivec2 pixel, int output, const OutputPattern& pattern, uint seed) {
+    const glm::uvec4& entry = pattern.entries[std::size_t(output)];
     const uint pixelSeed = hash(uint(pixel.x) + hash(uint(pixel.y) + hash(seed)));
     const uint qx = owenScramble(entry.x, hash(pixelSeed ^ 0xa511e9b3u)) >> 20;
     const uint qy = owenScramble(entry.y, hash(pixelSeed ^ 0x63d83595u)) >> 20;
@@ -160,7 +131,7 @@ Output outputAt(ivec2 pixel, int output, const glm::uvec4& entry, ivec2 lensCell
                       (vec2(float(jitter & 0xffffu), float(jitter >> 16)) + 0.5f) * (1.f / 65536.f);
     Output o;
     o.xy = vec2(pixel) + (vec2(float(qx), float(qy)) + 0.5f) * (1.f / float(kSubpixels));
-    o.uv = lensScale * concentricDisc(cell * (2.f / vec2(lensCells)) - 1.f);
+    o.uv = pattern.lensScale * pattern.aperture.at(cell * (2.f / vec2(pattern.lensCells)) - 1.f);
     o.t = float(qt) * (1.f / 16777216.f);
     o.positionCode = float(qx * uint(kSubpixels) + qy);
     return o;

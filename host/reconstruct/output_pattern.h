@@ -5,6 +5,7 @@
 // The pixel position and the time come from a Sobol' sequence whose first two dimensions gave the lens cell,
 // Owen-scrambled for each pixel. All of it is integer arithmetic and exact in GLSL too.
 #pragma once
+#include "camera/aperture.h"
 #include "shared/reconstruct.h"
 
 #include <bit>
@@ -12,16 +13,12 @@
 
 namespace slant {
 
-/// Lens positions that the outputs of one group can have.
-struct LensBox {
-    vec2 min, max;
-};
-
 struct OutputPattern {
     /// One an output: Sobol' bits, bit-reversed, of x, y and time; lens cell (column | row << 16).
     std::vector<glm::uvec4> entries;
     ivec2 lensCells{1, 1};       ///< columns, rows of the lens grid; powers of two
     float lensScale = 1;         ///< radius of the disc that outputs look through
+    Aperture aperture;           ///< what that disc lets through
     int groupBits = 0;           ///< 2^groupBits consecutive entries make a group
     std::vector<LensBox> groups; ///< lens positions of each group
 
@@ -39,22 +36,18 @@ constexpr bool isOutputCount(int outputsPerPixel) {
 
 /// Groups are of up to kFilmBlock outputs, fewer where `slopePx`, the largest slope to either side, would
 /// spread them over the picture. Throws Error(usage) unless isOutputCount(outputsPerPixel).
-OutputPattern makeOutputPattern(int outputsPerPixel, float slopePx, float lensScale = 1);
+OutputPattern makeOutputPattern(int outputsPerPixel, float slopePx, float lensScale = 1,
+                                Aperture aperture = {});
 
 /// One output: where it lies in pixel, lens and time.
 struct Output {
     vec2 xy; ///< raster position
-    vec2 uv; ///< in the disc of radius lensScale
+    vec2 uv; ///< in the disc of radius lensScale, where the aperture is open
     float t;
     float positionCode; ///< place in its pixel: qx * kSubpixels + qy, exact in a float
 };
 
 /// The same arithmetic as lib/output_pattern.glsl.
-Output outputAt(ivec2 pixel, int output, const glm::uvec4& entry, ivec2 lensCells, float lensScale,
-                uint seed);
-
-/// Shirley and Chiu's concentric map from [-1, 1]^2 to the unit disc, with sine and cosine as polynomials so
-/// that compute gives the same bits.
-vec2 concentricDisc(vec2 square);
+Output outputAt(ivec2 pixel, int output, const OutputPattern& pattern, uint seed);
 
 } // namespace slant

@@ -40,8 +40,7 @@ WindowChunk::Counts WindowChunk::look(std::size_t count, const IndexAt& indexAt,
             const std::size_t index = indexAt(i), place = index % area;
             const ivec2 pixel = layout_.regionOrigin + ivec2(int(place % width), int(place / width));
             const int k = firstOutput_ + int(index / area);
-            const Output output = outputAt(pixel, k, pattern_.entries[std::size_t(k)], pattern_.lensCells,
-                                           pattern_.lensScale, layout_.seed);
+            const Output output = outputAt(pixel, k, pattern_, layout_.seed);
             const WindowResult result = lookThroughWindow(samples_, search_, pixel, output, scratch);
             dense.samples[index] = vec4(result.rgb, output.positionCode);
             ++part[std::size_t(result.outcome)];

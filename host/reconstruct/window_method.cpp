@@ -12,7 +12,8 @@ void windowMethod(CpuRun& run) {
     run.observe("window.positions", samples.positions);
     run.observe("window.radiances", samples.radiances);
     const WindowSearch search = windowSearch(run.field, run.options.window);
-    const OutputPattern pattern = makeOutputPattern(run.options.outputsPerPixel, 0, run.options.lensScale);
+    const OutputPattern pattern = makeOutputPattern(run.options.outputsPerPixel, 0, run.options.lensScale,
+                                                    apertureOf(run.field, run.options));
     const Plan plan = planOutputs(run.field.frame, run.film.filter(), pattern, maxDenseSamples(run.options));
 
     run.monitor.beginStage("reconstruct", plan.outputs, "outputs");

@@ -122,10 +122,12 @@ PerspectiveCamera readShutter(const std::string& kind, ParameterList& parameters
     return camera;
 }
 
-void readPerspective(PerspectiveCamera& camera, ParameterList& parameters) {
+void readPerspective(PerspectiveCamera& camera, ParameterList& parameters, const SceneFiles& files) {
     camera.fovDegrees = parameters.number("fov", 90, {0, 179.99, true});
     camera.lensRadius = parameters.number("lensradius", 0, kNonNegative);
     camera.focalDistance = parameters.number("focaldistance", 1e6f, kPositive);
+    if (const std::optional<std::string> aperture = parameters.text("aperture"))
+        camera.aperture = files.aperture(*aperture, parameters.positionOf("aperture"));
 }
 
 RealisticCamera readRealistic(ParameterList& parameters, const std::string& path, Monitor& monitor) {
@@ -212,7 +214,7 @@ void OptionBlock::resolve(Scene& scene, const SceneFiles& files, Monitor& monito
         scene.realistic = readRealistic(camera.parameters, files.resolve(*lens), monitor);
         scene.files.push_back(scene.realistic->lens.path);
     } else {
-        readPerspective(scene.camera, camera.parameters);
+        readPerspective(scene.camera, camera.parameters, files);
         readScreen(scene.camera, camera.parameters, scene.film);
     }
     camera.parameters.finish();

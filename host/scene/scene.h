@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/rect.h"
 #include "image/image.h"
+#include "scene/aperture_shape.h"
 
 #include <array>
 #include <glm/glm.hpp>
@@ -50,9 +51,10 @@ struct Film {
 /// Camera "perspective".
 struct PerspectiveCamera {
     MovingTransform worldFromCamera;
-    float fovDegrees = 90;                        ///< of the shorter axis
-    float lensRadius = 0;                         ///< world units; 0 = pinhole
-    float focalDistance = 1e6f;                   ///< distance along z of the plane in focus
+    float fovDegrees = 90;      ///< of the shorter axis
+    float lensRadius = 0;       ///< world units; 0 = pinhole
+    float focalDistance = 1e6f; ///< distance along z of the plane in focus
+    ApertureShape aperture;
     glm::vec2 screenMin{-1, -1}, screenMax{1, 1}; ///< screen window after frameaspectratio and its default
     float shutterOpen = 0, shutterClose = 1;
 };

@@ -91,6 +91,12 @@ int SceneFiles::image(const std::string& filename, ColourEncoding encoding, bool
     return entry->second;
 }
 
+ApertureShape SceneFiles::aperture(const std::string& text, const Position& where) const {
+    ApertureShape shape = readAperture(text, directory_, where);
+    if (shape.name == "image") scene_.files.push_back(resolve(text));
+    return shape;
+}
+
 std::vector<int> SceneFiles::plyMeshes(const std::string& filename, const Position& where) {
     const std::string path = resolve(filename);
     if (const auto known = meshes_.find(path); known != meshes_.end()) return known->second;

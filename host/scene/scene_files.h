@@ -43,6 +43,9 @@ public:
     /// Index of the image in Scene::images: linear, RGB, or with `average` the mean of the channels.
     int image(const std::string& filename, ColourEncoding encoding, bool average, const Position& where);
 
+    /// The shape of that name, or that of an image file.
+    ApertureShape aperture(const std::string& text, const Position& where) const;
+
     /// Indices in Scene::meshes: triangles, bilinear patches, or both.
     std::vector<int> plyMeshes(const std::string& filename, const Position& where);
 

@@ -139,7 +139,13 @@ LightField traceLightField(const Tracer& tracer, const Scene& scene, const Sampl
         copyRows(samples, part, all, bounds, spp);
     }
     monitor.endStage();
-    return {bounds, frame, spp, tracer.camera().slopeModel(), std::move(all.light), std::move(all.auxiliary)};
+    return {bounds,
+            frame,
+            spp,
+            tracer.camera().slopeModel(),
+            std::move(all.light),
+            std::move(all.auxiliary),
+            tracer.camera().aperture()};
 }
 
 } // namespace slant

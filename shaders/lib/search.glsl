@@ -7,7 +7,7 @@
 #ifndef SLANT_LIB_SEARCH_GLSL
 #define SLANT_LIB_SEARCH_GLSL
 #include "lib/grid.glsl"
-#include "lib/output_pattern.glsl"
+#include "lib/output.glsl"
 
 /// False where the search would have passed kMaxLoopIterations: the output must be done elsewhere.
 bool forEachCandidate(GridLayout grid, Output o, float radius, uint listBegin, uint listEnd, inout Sweep sweep) {

@@ -92,6 +92,9 @@ TEST_F(FieldErrors, tlfrHeaders) {
     headerFails("dwdy\n", "dwdy\nslant:filter gausian 1 1 1\n", "did you mean 'gaussian'?");
     headerFails("dwdy\n", "dwdy\nslant:filter box 1 99\n", "two radii");
     headerFails("dwdy\n", "dwdy\nslant:lensRadius -1\n", "not a length");
+    headerFails("dwdy\n", "dwdy\nslant:aperture hexagon\n", "a.header:9: aperture 'hexagon' is no shape");
+    headerFails("dwdy\n", "dwdy\nslant:aperture polygon 2\n", "3 to 100 blades");
+    headerFails("dwdy\n", "dwdy\nslant:aperture image 00ff\n", "131072 hexadecimal digits");
     headerFails("dwdy\n", "dwdy\nslant:seed 1.5\n", "whole number of 64 bits");
     headerFails("Version", std::string(1 << 20, '\n') + "Version", "is longer than any TLFR header");
 }
@@ -224,16 +227,27 @@ TEST_F(FieldErrors, lensesThatCannotBe) {
              {{"--focus-distance", "0"}, "--focus-distance"},
              {{"--focus-distance", "3", "--method", "box"}, "method box"},
              {{"--focus-distance", "3", "--method", "window"}, "method window"},
-             {{"--pinhole", "--method", "box"}, "method box"}}) {
+             {{"--pinhole", "--method", "box"}, "method box"},
+             {{"--aperture", "star", "--method", "box"}, "method box"}}) {
         const test::ProgramResult result = reconstruct(words);
         EXPECT_EQ(result.status, 2) << result.err;
         EXPECT_EQ(result.errorLines(), 1) << result.err;
         EXPECT_THAT(result.err, HasSubstr(part));
     }
-    EXPECT_THAT(reconstruct({"--aperture-scale", "1.5"}).err, HasSubstr("1.5 times as wide"));
+    EXPECT_THAT(reconstruct({"--aperture-scale", "1.5"}).err,
+                HasSubstr("55 % of this lens lies outside the traced one"));
+    const test::ProgramResult unknown = reconstruct({"--aperture", "stra"});
+    EXPECT_EQ(unknown.status, 3) << unknown.err;
+    EXPECT_THAT(unknown.err, HasSubstr("aperture \"stra\" is none of"));
+    EXPECT_THAT(unknown.err, HasSubstr("did you mean 'star'?"));
+    file.field.aperture = Aperture(*parseAperture("polygon 6", {}));
+    writeField(dir_.file("a.exr"), file.field, file.details, monitor);
+    EXPECT_THAT(reconstruct({"--aperture", "disc"}).err, HasSubstr("17 % of this lens lies outside"));
+    EXPECT_THAT(reconstruct({"--aperture", "polygon 6", "--aperture-scale", "0.9"}).err,
+                testing::Not(HasSubstr("outside the traced")));
     file.details.focalLength = 0.9f; // f/1.5
     writeField(dir_.file("a.exr"), file.field, file.details, monitor);
-    EXPECT_THAT(reconstruct({"--f-stop", "0.5"}).err, HasSubstr("3 times as wide"));
+    EXPECT_THAT(reconstruct({"--f-stop", "0.5"}).err, HasSubstr("89 % of this lens lies outside"));
     EXPECT_THAT(runSlant({"info", dir_.file("a.exr")}).out, HasSubstr("f-number         1.5\n"));
 }
 

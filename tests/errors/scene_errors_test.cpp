@@ -170,6 +170,18 @@ TEST(SceneErrors, options) {
          ":1:22: 'lensradius' is -1, but must be at least 0"},
         {"Camera \"perspective\" \"float shutteropen\" 1 WorldBegin",
          ":1:1: the shutter never opens: 'shutterclose' must be after 'shutteropen'"},
+        {"Camera \"perspective\" \"string aperture\" \"pentagram\" WorldBegin",
+         ":1:22: aperture \"pentagram\" is none of disc, gaussian, square, pentagon, star, polygon and no "
+         "image file, did you mean 'pentagon'?"},
+        {"Camera \"perspective\" \"string aperture\" \"polygon 2\" WorldBegin",
+         ":1:22: aperture \"polygon 2\" is not \"polygon BLADES\" or \"polygon BLADES DEGREES\" with 3 to "
+         "100 blades and at most 360 degrees"},
+        {"Camera \"perspective\" \"string aperture\" \"polygon\" WorldBegin",
+         ":1:22: aperture \"polygon\" is not \"polygon BLADES\" or \"polygon BLADES DEGREES\" with 3 to "
+         "100 blades and at most 360 degrees"},
+        {"Camera \"perspective\" \"string aperture\" \"image 12\" WorldBegin",
+         ":1:22: aperture \"image 12\" is none of disc, gaussian, square, pentagon, star, polygon and no "
+         "image file"},
         {"Camera \"perspective\" \"float focaldist\" 1 WorldBegin",
          ":1:22: Camera \"perspective\" has no parameter 'focaldist', or none that is supported"},
     });

@@ -47,6 +47,35 @@ TEST_P(ThroughFiles, sampleAndReconstructIsRender) {
     }
 }
 
+TEST_P(ThroughFiles, aperturesTravelAlong) {
+    Image dots({0, 0, 5, 5}, {"Y"});
+    for (std::size_t i = 0; i < dots.pixels.size(); i += 2) dots.pixels[i] = float(i);
+    writeExr(dir_.file("dots.exr"), dots);
+    const std::string scene = dir_.file("scene.pbrt");
+    std::vector<Image> pictures;
+    for (const std::string aperture : {"disc", "star", "dots.exr"}) {
+        test::writeText(scene, "Film \"rgb\" \"integer xresolution\" 24 \"integer yresolution\" 20\n"
+                               "Sampler \"independent\" \"integer pixelsamples\" 3\n"
+                               "Camera \"perspective\" \"float lensradius\" 0.6 \"float focaldistance\" 2\n"
+                               "\"string aperture\" \"" +
+                                   aperture +
+                                   "\"\nWorldBegin\n"
+                                   "LightSource \"infinite\" \"rgb L\" [0.1 0.2 0.4]\nTranslate 0 0 4\n"
+                                   "AreaLightSource \"diffuse\" Shape \"sphere\" \"float radius\" 0.4\n");
+        const std::vector<std::string> picturing = {"--out-spp", "32",       "--float",
+                                                    "--quiet",   "--device", GetParam()};
+        run({"render", scene, "-o", dir_.file("render.exr")}, picturing);
+        pictures.push_back(picture("render.exr"));
+        for (const std::string field : {"field.exr", "field.bin"}) {
+            run({"sample", scene, "-o", dir_.file(field), "--quiet"}, {});
+            run({"reconstruct", dir_.file(field), "-o", dir_.file("out.exr")}, picturing);
+            EXPECT_TRUE(picture("out.exr").pixels == pictures.back().pixels) << field << ' ' << aperture;
+        }
+    }
+    EXPECT_FALSE(pictures[0].pixels == pictures[1].pixels);
+    EXPECT_FALSE(pictures[1].pixels == pictures[2].pixels);
+}
+
 TEST_P(ThroughFiles, everyFormatRefocusesToTheSameBits) {
     const std::string scene = SLANT_SOURCE_DIR "/scenes/spheres.pbrt";
     const std::vector<std::string> picturing = {"--out-spp", "8",       "--method", "full",

@@ -32,9 +32,7 @@ glm::dvec2 exactSquare(glm::dvec2 disc) {
 
 std::vector<Output> outputsOf(const OutputPattern& pattern, ivec2 pixel, uint seed = 0) {
     std::vector<Output> outputs;
-    for (int i = 0; i < pattern.outputsPerPixel(); ++i)
-        outputs.push_back(
-            outputAt(pixel, i, pattern.entries[std::size_t(i)], pattern.lensCells, pattern.lensScale, seed));
+    for (int i = 0; i < pattern.outputsPerPixel(); ++i) outputs.push_back(outputAt(pixel, i, pattern, seed));
     return outputs;
 }
 
@@ -123,6 +121,23 @@ TEST(OutputPattern, groupsHoldTheirOutputs) {
                     const LensBox& box = pattern.groups[i / std::size_t(pattern.groupSize())];
                     EXPECT_TRUE(glm::all(glm::greaterThanEqual(outputs[i].uv, box.min)) &&
                                 glm::all(glm::lessThanEqual(outputs[i].uv, box.max)));
+                }
+            }
+        }
+}
+
+TEST(OutputPattern, groupsHoldTheirOutputsWhateverTheAperture) {
+    for (const char* shape : {"gaussian", "star", "polygon 5 7"})
+        for (const int count : {1, 64, 512}) {
+            const OutputPattern pattern =
+                makeOutputPattern(count, 30, 0.7f, Aperture(*parseAperture(shape, {})));
+            for (int x = 0; x < 50; ++x) {
+                const std::vector<Output> outputs = outputsOf(pattern, {x, 3 * x});
+                for (std::size_t i = 0; i < outputs.size(); ++i) {
+                    const LensBox& box = pattern.groups[i / std::size_t(pattern.groupSize())];
+                    EXPECT_TRUE(glm::all(glm::greaterThanEqual(outputs[i].uv, box.min)) &&
+                                glm::all(glm::lessThanEqual(outputs[i].uv, box.max)))
+                        << shape;
                 }
             }
         }

@@ -91,8 +91,7 @@ TEST(Window, equalsItsDescriptionInDoublePrecision) {
         for (int y = 0; y < 30; ++y)
             for (int x = 0; x < 40; ++x)
                 for (int k = 0; k < 2; ++k) {
-                    const Output o =
-                        outputAt({x, y}, k, pattern.entries[std::size_t(k)], pattern.lensCells, 1, 0);
+                    const Output o = outputAt({x, y}, k, pattern, 0);
                     const WindowResult got = lookThroughWindow(samples, search, {x, y}, o, scratch);
                     const glm::dvec3 apart =
                         glm::abs(glm::dvec3(got.rgb) - expected(field, search, {x, y}, o));

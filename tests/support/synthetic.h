@@ -50,8 +50,9 @@ inline LightFieldSample look(const std::vector<Layer>& layers, glm::vec2 xy, glm
 /// spp samples in every pixel of `bounds`: a sqrt(spp)-ish grid in the pixel, jittered, and a shuffled one on
 /// the lens.
 inline LightField sample(const std::vector<Layer>& layers, Rect frame, int overscan, int spp,
-                         std::uint32_t seed) {
+                         std::uint32_t seed, const Aperture& aperture = {}) {
     LightField field;
+    field.aperture = aperture;
     field.frame = frame;
     field.bounds = frame.expand(overscan);
     field.samplesPerPixel = spp;
@@ -70,8 +71,10 @@ inline LightField sample(const std::vector<Layer>& layers, Rect frame, int overs
                 const float r = std::sqrt(stratum(j, spp));
                 const float phi =
                     6.2831853f * std::fmod(float(j) * 0.618034f + random.uniform() / float(spp), 1.f);
-                field.samples.push_back(look(layers, {float(x) + fx, float(y) + fy},
-                                             {r * std::cos(phi), r * std::sin(phi)}, random.uniform()));
+                const glm::vec2 lens = aperture.isDisc()
+                                           ? r * glm::vec2(std::cos(phi), std::sin(phi))
+                                           : aperture.at({2 * r * r - 1, phi * (2 / 6.2831853f) - 1});
+                field.samples.push_back(look(layers, {float(x) + fx, float(y) + fy}, lens, random.uniform()));
             }
         }
     return field;

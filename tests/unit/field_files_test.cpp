@@ -40,7 +40,7 @@ void expectSame(const FieldFile& got, const FieldFile& expected) {
         EXPECT_EQ(got.field.slopeModel.*constant, expected.field.slopeModel.*constant);
     EXPECT_TRUE(test::sameBits(got.field, expected.field));
     EXPECT_EQ(got.details.film, expected.details.film);
-    EXPECT_EQ(metadataOf(got.details), metadataOf(expected.details));
+    EXPECT_EQ(metadataOf(got.field, got.details), metadataOf(expected.field, expected.details));
     EXPECT_EQ(got.movingSamples, 0u);
 }
 
@@ -57,6 +57,23 @@ TEST_F(FieldFiles, everyFormatReadsWhatItWrote) {
             expectSame(got, file);
             EXPECT_THAT(monitor_.warnings, testing::IsEmpty());
         }
+}
+
+TEST_F(FieldFiles, everyShapeOfAperture) {
+    FieldFile file = richField(1);
+    Image bright({0, 0, 2, 2}, {"Y"});
+    bright.pixels = {1, 0.5f, 0.25f, 0};
+    for (const ApertureShape& shape :
+         {*parseAperture("star", {}), *parseAperture("polygon 7 12.1", {}), apertureOfImage(bright, {})}) {
+        file.field.aperture = Aperture(shape);
+        for (const char* name : {"a.exr", "a.bin", "a.txt"}) {
+            write(name, file);
+            const FieldFile got = read(name);
+            expectSame(got, file);
+            EXPECT_EQ(textOf(got.field.aperture.shape()), textOf(shape));
+            EXPECT_TRUE(std::ranges::equal(got.field.aperture.table(), file.field.aperture.table()));
+        }
+    }
 }
 
 TEST_F(FieldFiles, everyFilterAndAnEmptyDescription) {

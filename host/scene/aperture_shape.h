@@ -1,0 +1,51 @@
+// The shape of a lens's opening, by the name that scenes, options and light field files give it:
+//
+//     disc | gaussian | square | pentagon | star | polygon BLADES [DEGREES] | image WEIGHTS
+//
+// The second to fifth are those of pbrt-v4's realistic camera, of the same sizes. A polygon is regular, with
+// its corners on the rim of the lens, one of them at the top, or turned counter-clockwise by DEGREES. Shapes
+// stand upright in the blur of what lies behind the plane in focus. An image covers the square around the
+// disc; what lies outside the disc is dark.
+#pragma once
+#include "base/error.h"
+#include "image/image.h"
+#include "scene/position.h"
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace slant {
+
+/// In lens coordinates: the unit disc, u to the right, v downwards. The disc itself has neither rim nor
+/// weights, every other shape one of them.
+struct ApertureShape {
+    static constexpr int kSide = 256; ///< pixels along a side of the weights
+
+    std::string name = "disc"; ///< as above, but "image" without its weights
+    /// Corners of an outline around the centre; the triangles between it and each side have the same area.
+    std::vector<glm::dvec2> rim;
+    /// Of the light that passes, row by row from the top: at least one is 255, those of pixels that are not
+    /// wholly in the disc are 0.
+    std::vector<std::uint8_t> weights;
+};
+
+/// The shape of that name; nothing if it is none of the names. Throws Error(badInput) at `where` for a
+/// polygon or weights that are malformed.
+std::optional<ApertureShape> parseAperture(std::string_view text, const FileLocation& where);
+
+/// What parseAperture takes.
+std::string textOf(const ApertureShape& shape);
+
+/// The mean of an image's channels as weights, its brightest pixel in the disc fully open. Throws
+/// Error(badInput) at `where` if it is black there.
+ApertureShape apertureOfImage(const Image& image, const FileLocation& where);
+
+/// What `text` names: a shape, or else an image file, relative to `directory`. Throws Error(badInput) at
+/// `where`.
+ApertureShape readAperture(const std::string& text, const std::string& directory, const Position& where);
+
+} // namespace slant
