@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Installs what is missing of cmake/packages.txt (Debian 12). Needs root or sudo only when something is missing.
+# Installs what is missing of a list of Debian 12 packages. Needs root or sudo only when something is missing.
+#     bash cmake/install_packages.sh [LIST]        cmake/packages.txt unless told
 set -euo pipefail
-list="$(dirname "$0")/packages.txt"
+list="${1:-$(dirname "$0")/packages.txt}"
 
 missing=()
 while read -r package; do

@@ -11,8 +11,9 @@ namespace {
 
 using glm::vec2;
 
-constexpr int kSide = ApertureShape::kSide;
+constexpr int kSectors = ApertureShape::kSectors, kRings = ApertureShape::kRings;
 constexpr float kLastBelowOne = 0x1.fffffep-1f;
+constexpr float kTurn = 2 * std::numbers::pi_v<float>;
 
 void appendCumulative(std::vector<float>& table, std::span<const double> weights) {
     double total = 0, sum = 0;
@@ -34,36 +35,71 @@ std::vector<float> tableOf(const ApertureShape& shape) {
         return table;
     }
     if (shape.weights.empty()) return {0};
-    const std::vector<double> weights(shape.weights.begin(), shape.weights.end());
-    const auto row = [&](int y) { return std::span(&weights[std::size_t(y) * kSide], kSide); };
-    std::vector<double> rows;
-    for (int y = 0; y < kSide; ++y) {
-        double sum = 0;
-        for (const double weight : row(y)) sum += weight;
-        rows.push_back(sum);
+    std::vector<double> light, sectors;
+    for (std::size_t i = 0; i < shape.weights.size(); ++i) {
+        const auto ring = double(i % kRings);
+        light.push_back(shape.weights[i] * (2 * ring + 1)); // times the area of the cell
+        if (i % kRings == 0) sectors.push_back(0);
+        sectors.back() += light.back();
     }
     std::vector<float> table{-1};
-    appendCumulative(table, rows);
-    for (int y = 0; y < kSide; ++y) appendCumulative(table, row(y));
+    appendCumulative(table, sectors);
+    for (std::size_t i = 0; i < light.size(); i += kRings)
+        appendCumulative(table, std::span(light).subspan(i, kRings));
     return table;
 }
 
-/// The entry of a cumulative table that a number in [0, 1) falls into.
-int entryAt(std::span<const float> cumulative, float s) {
+/// The cumulative light of the sectors, or of the rings of one.
+std::span<const float> sectorsOf(std::span<const float> table) {
+    return table.subspan(1, kSectors + 1);
+}
+std::span<const float> ringsOf(std::span<const float> table, int sector) {
+    return table.subspan(std::size_t(kSectors + 2 + sector * (kRings + 1)), kRings + 1);
+}
+
+/// The entry of a cumulative table that a number in [0, 1) falls into; `entries` is a power of two.
+int entryAt(std::span<const float> cumulative, int entries, float s) {
     int low = 0;
-    for (int step = kSide / 2; step > 0; step /= 2)
+    for (int step = entries / 2; step > 0; step /= 2)
         if (cumulative[std::size_t(low + step)] <= s) low += step;
     return low;
 }
 
-/// Where in [-1, 1] it falls.
-float placeAt(std::span<const float> cumulative, int entry, float s) {
+/// How far into the entry, 0 to 1.
+float partAt(std::span<const float> cumulative, int entry, float s) {
     const float begin = cumulative[std::size_t(entry)], end = cumulative[std::size_t(entry) + 1];
-    return (float(entry) + (s - begin) / (end - begin)) * (2.f / float(kSide)) - 1.f;
+    return (s - begin) / (end - begin);
 }
 
-std::span<const float> cumulativeOf(std::span<const float> table, int list) {
-    return table.subspan(std::size_t(1 + list * (kSide + 1)), kSide + 1);
+/// Of a place of the square [-1, 1]^2 in the concentric map: distance from the centre, angle in turns from
+/// (1, 0) towards (0, 1), below 1.
+struct Polar {
+    float distance, turn;
+};
+Polar polarOf(vec2 square) {
+    const bool wide = glm::abs(square.x) > glm::abs(square.y);
+    const float radius = wide ? square.x : square.y;
+    if (radius == 0) return {0, 0};
+    float turn = wide ? square.y / square.x * 0.125f : 0.25f - square.x / square.y * 0.125f;
+    if (radius < 0) turn += 0.5f;
+    if (turn < 0) turn += 1.f;
+    return {glm::abs(radius), glm::min(turn, kLastBelowOne)};
+}
+/// The inverse of it.
+vec2 squareOf(Polar polar) {
+    const float side = glm::floor(4.f * polar.turn + 0.5f), along = 8.f * polar.turn - 2.f * side;
+    const vec2 place = side == 1.f   ? vec2(-along, 1.f)
+                       : side == 2.f ? vec2(-1.f, -along)
+                       : side == 3.f ? vec2(along, -1.f)
+                                     : vec2(1.f, along);
+    return polar.distance * place;
+}
+
+/// Where in its sector's rings the share `s` of the light lies inwards.
+float distanceAt(std::span<const float> rings, float s) {
+    const int ring = entryAt(rings, kRings, s);
+    const float inner = float(ring) * (1.f / float(kRings)), outer = float(ring + 1) * (1.f / float(kRings));
+    return glm::sqrt(inner * inner + partAt(rings, ring, s) * (outer * outer - inner * inner));
 }
 
 void add(LensBox& box, vec2 p) {
@@ -81,37 +117,35 @@ Aperture::Aperture(ApertureShape shape) {
 vec2 Aperture::at(vec2 square) const {
     const float kind = data_->table[0];
     if (kind == 0) return concentricDisc(square);
-    return kind > 0 ? onOutline(square) : onImage(square);
+    return kind > 0 ? onOutline(square) : onWeights(square);
 }
 
 vec2 Aperture::onOutline(vec2 square) const {
-    const bool wide = glm::abs(square.x) > glm::abs(square.y);
-    const float radius = wide ? square.x : square.y;
-    if (radius == 0) return vec2(0);
-    float turn = wide ? square.y / square.x * 0.125f : 0.25f - square.x / square.y * 0.125f;
-    if (radius < 0) turn += 0.5f;
-    if (turn < 0) turn += 1.f;
+    const Polar polar = polarOf(square);
     const int corners = int(data_->table[0]);
-    const float sector = turn * float(corners);
+    const float sector = polar.turn * float(corners);
     const int i = glm::min(int(sector), corners - 1);
     const vec2 begin = corner(i), end = corner(i + 1);
-    return glm::abs(radius) * (begin + (sector - float(i)) * (end - begin));
+    return polar.distance * (begin + (sector - float(i)) * (end - begin));
 }
 
-vec2 Aperture::onImage(vec2 square) const {
-    const vec2 s = glm::min(0.5f * square + 0.5f, vec2(kLastBelowOne));
-    const std::span<const float> rows = cumulativeOf(table(), 0);
-    const int row = entryAt(rows, s.y);
-    const std::span<const float> columns = cumulativeOf(table(), 1 + row);
-    return {placeAt(columns, entryAt(columns, s.x), s.x), placeAt(rows, row, s.y)};
+vec2 Aperture::onWeights(vec2 square) const {
+    const Polar polar = polarOf(square);
+    const std::span<const float> sectors = sectorsOf(table());
+    const int sector = entryAt(sectors, kSectors, polar.turn);
+    const float turn = (float(sector) + partAt(sectors, sector, polar.turn)) * (1.f / float(kSectors));
+    const float light = glm::min(polar.distance * polar.distance, kLastBelowOne);
+    return concentricDisc(squareOf({distanceAt(ringsOf(table(), sector), light), turn}));
 }
 
 float Aperture::transmission(vec2 lens) const {
     const ApertureShape& shape = data_->shape;
     if (!shape.weights.empty()) {
-        const glm::ivec2 pixel(glm::floor((lens + 1.f) * float(kSide / 2)));
-        if (pixel.x < 0 || pixel.y < 0 || pixel.x >= kSide || pixel.y >= kSide) return 0;
-        return float(shape.weights[std::size_t(pixel.y * kSide + pixel.x)]) / 255;
+        const float radius = glm::length(lens), turn = std::atan2(lens.y, lens.x) / kTurn;
+        if (radius > 1) return 0;
+        const int sector = glm::min(int((turn < 0 ? turn + 1 : turn) * float(kSectors)), kSectors - 1);
+        const int ring = glm::min(int(radius * float(kRings)), kRings - 1);
+        return float(shape.weights[std::size_t(sector * kRings + ring)]) / 255;
     }
     if (shape.rim.empty()) return glm::dot(lens, lens) <= 1 ? 1.f : 0.f;
     const auto cross = [](vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; };
@@ -130,8 +164,10 @@ double Aperture::meanTransmission() const {
         const glm::dvec2 a = shape.rim[0], b = shape.rim[1];
         area = std::abs(a.x * b.y - a.y * b.x) / 2 * double(shape.rim.size());
     } else if (!shape.weights.empty()) {
-        area = 0;
-        for (const std::uint8_t weight : shape.weights) area += weight / 255.0 * 4 / (kSide * kSide);
+        double sum = 0;
+        for (std::size_t i = 0; i < shape.weights.size(); ++i)
+            sum += shape.weights[i] / 255.0 * double(2 * (i % kRings) + 1);
+        area *= sum / (double(kSectors) * kRings * kRings);
     }
     return area / std::numbers::pi;
 }
@@ -151,7 +187,7 @@ double shareOutside(const Aperture& aperture, float scale, const Aperture& other
 LensBox Aperture::box(vec2 squareMin, vec2 squareMax) const {
     const float kind = data_->table[0];
     if (kind > 0) return outlineBox(squareMin, squareMax);
-    if (kind < 0) return imageBox(squareMin, squareMax);
+    if (kind < 0) return weightsBox(squareMin, squareMax);
     // Curved sides are sampled, and the box padded by more than what lies between two samples.
     constexpr int steps = 32;
     LensBox box{vec2(2), vec2(-2)};
@@ -194,20 +230,35 @@ LensBox Aperture::outlineBox(vec2 squareMin, vec2 squareMax) const {
     return {box.min - kRounding, box.max + kRounding};
 }
 
-/// Both places grow with their number, but each row has columns of its own.
-LensBox Aperture::imageBox(vec2 squareMin, vec2 squareMax) const {
-    const vec2 from = glm::min(0.5f * squareMin + 0.5f, vec2(kLastBelowOne));
-    const vec2 to = glm::min(0.5f * squareMax + 0.5f, vec2(kLastBelowOne));
-    const std::span<const float> rows = cumulativeOf(table(), 0);
-    const int first = entryAt(rows, from.y), last = entryAt(rows, to.y);
-    LensBox box{vec2(2, placeAt(rows, first, from.y)), vec2(-2, placeAt(rows, last, to.y))};
-    for (int row = first; row <= last; ++row) {
-        if (rows[std::size_t(row)] == rows[std::size_t(row) + 1]) continue; // never chosen
-        const std::span<const float> columns = cumulativeOf(table(), 1 + row);
-        box.min.x = std::min(box.min.x, placeAt(columns, entryAt(columns, from.x), from.x));
-        box.max.x = std::max(box.max.x, placeAt(columns, entryAt(columns, to.x), to.x));
+/// Turns and distances grow with those of the square, but each sector has rings of its own.
+LensBox Aperture::weightsBox(vec2 squareMin, vec2 squareMax) const {
+    const vec2 nearest = glm::max(glm::max(squareMin, -squareMax), vec2(0));
+    const vec2 farthest = glm::max(glm::abs(squareMin), glm::abs(squareMax));
+    const float distanceMin = glm::max(nearest.x, nearest.y), distanceMax = glm::max(farthest.x, farthest.y);
+    const auto lightOf = [](float distance) { return glm::min(distance * distance, kLastBelowOne); };
+    float turnMin = 1, turnMax = 0;
+    for (const float x : {squareMin.x, squareMax.x})
+        for (const float y : {squareMin.y, squareMax.y}) {
+            if (x == 0 && y == 0) continue; // of every turn, but its sides are not
+            const float turn = polarOf({x, y}).turn;
+            const bool whole = turn == 0 && squareMax.y <= 0; // one turn, if the rectangle lies before it
+            turnMin = glm::min(turnMin, whole ? kLastBelowOne : turn);
+            turnMax = glm::max(turnMax, whole ? kLastBelowOne : turn);
+        }
+    if (squareMin.y < 0 && squareMax.y > 0 && squareMax.x > 0) turnMin = 0, turnMax = kLastBelowOne;
+
+    const std::span<const float> sectors = sectorsOf(table());
+    const int first = entryAt(sectors, kSectors, turnMin), last = entryAt(sectors, kSectors, turnMax);
+    LensBox box{vec2(2), vec2(-2)};
+    for (int sector = first; sector <= last; ++sector) {
+        if (sectors[std::size_t(sector)] == sectors[std::size_t(sector) + 1]) continue; // never chosen
+        for (const float distance : {distanceMin, distanceMax})
+            for (const int side : {0, 1})
+                add(box, concentricDisc(squareOf({distanceAt(ringsOf(table(), sector), lightOf(distance)),
+                                                  float(sector + side) * (1.f / float(kSectors))})));
     }
-    return box;
+    constexpr float kSag = 1e-4f; // of an arc of a sector, and rounding
+    return {box.min - kSag, box.max + kSag};
 }
 
 } // namespace slant

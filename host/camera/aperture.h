@@ -2,8 +2,9 @@
 // in proportion to the light that passes, so that every position counts the same.
 //
 // The disc's is Shirley and Chiu's concentric map. An outline's is the same with the disc's sectors replaced
-// by the triangles of the outline: linear within each, it keeps areas. Weights are drawn row first, then
-// column, by their inverse cumulative distribution. Each has the same arithmetic in lib/aperture.glsl.
+// by the triangles of the outline: linear within each, it keeps areas. Weights turn the angles and then the
+// distances of the disc's by their inverse cumulative distribution. Each has the same arithmetic in
+// lib/aperture.glsl.
 #pragma once
 #include "scene/aperture_shape.h"
 
@@ -36,8 +37,8 @@ public:
     LensBox box(glm::vec2 squareMin, glm::vec2 squareMax) const;
 
     /// What at() reads, for lib/aperture.glsl. First 0 for the disc. Or the number of corners, then their
-    /// positions, the first one again last. Or -1, then of kSide rows the cumulative weights from 0 to 1,
-    /// then of the columns of each row.
+    /// positions, the first one again last. Or -1, then the cumulative light of sectors from 0 to 1, then of
+    /// the rings of each sector.
     std::span<const float> table() const { return data_->table; }
 
 private:
@@ -47,9 +48,9 @@ private:
     };
 
     glm::vec2 onOutline(glm::vec2 square) const;
-    glm::vec2 onImage(glm::vec2 square) const;
+    glm::vec2 onWeights(glm::vec2 square) const;
     LensBox outlineBox(glm::vec2 squareMin, glm::vec2 squareMax) const;
-    LensBox imageBox(glm::vec2 squareMin, glm::vec2 squareMax) const;
+    LensBox weightsBox(glm::vec2 squareMin, glm::vec2 squareMax) const;
     glm::vec2 corner(int i) const { return {data_->table[1 + 2 * i], data_->table[2 + 2 * i]}; }
 
     std::shared_ptr<const Data> data_;

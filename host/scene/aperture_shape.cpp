@@ -14,16 +14,11 @@
 namespace slant {
 namespace {
 
-constexpr int kSide = ApertureShape::kSide, kMaxBlades = 100;
+constexpr int kSectors = ApertureShape::kSectors, kRings = ApertureShape::kRings, kMaxBlades = 100;
+/// Looks at an image in each cell, along both directions.
+constexpr int kLooks = 8;
 constexpr std::string_view kImagePrefix = "image ", kPolygonPrefix = "polygon";
 constexpr std::string_view kHexDigits = "0123456789abcdef";
-
-bool isInDisc(int x, int y) {
-    const auto farthest = [](int i) {
-        return std::max(std::abs(i - kSide / 2), std::abs(i + 1 - kSide / 2));
-    };
-    return farthest(x) * farthest(x) + farthest(y) * farthest(y) <= kSide * kSide / 4;
-}
 
 /// Corners at these radii in turn, from the top counter-clockwise.
 std::vector<glm::dvec2> corners(int count, double radius, double otherRadius, double degrees) {
@@ -35,17 +30,27 @@ std::vector<glm::dvec2> corners(int count, double radius, double otherRadius, do
     return rim;
 }
 
-ApertureShape gaussian() {
-    ApertureShape shape{"gaussian", {}, std::vector<std::uint8_t>(kSide * kSide)};
-    const double rim = std::exp(-1.0);
-    for (int y = 0; y < kSide; ++y)
-        for (int x = 0; x < kSide; ++x) {
-            const glm::dvec2 p = (glm::dvec2(x, y) + 0.5) * (2.0 / kSide) - 1.0;
-            const double weight = (std::exp(-glm::dot(p, p)) - rim) / (1 - rim);
-            if (isInDisc(x, y))
-                shape.weights[std::size_t(y * kSide + x)] = std::uint8_t(std::lround(255 * weight));
+/// Weights of the mean of value(p) over each cell, the greatest one fully open; none if all is dark.
+template <typename Value>
+std::vector<std::uint8_t> weightsOf(const Value& value) {
+    std::vector<double> means;
+    for (int sector = 0; sector < kSectors; ++sector)
+        for (int ring = 0; ring < kRings; ++ring) {
+            double sum = 0, area = 0;
+            for (int i = 0; i < kLooks * kLooks; ++i) {
+                const double turn = (sector + (i % kLooks + 0.5) / kLooks) / kSectors;
+                const double radius = (ring + (i / kLooks + 0.5) / kLooks) / kRings;
+                const double angle = 2 * std::numbers::pi * turn;
+                sum += radius * value(radius * glm::dvec2(std::cos(angle), std::sin(angle)));
+                area += radius;
+            }
+            means.push_back(sum / area);
         }
-    return shape;
+    const double greatest = *std::max_element(means.begin(), means.end());
+    std::vector<std::uint8_t> weights;
+    if (!(greatest > 0)) return weights;
+    for (const double mean : means) weights.push_back(std::uint8_t(std::lround(255 * (mean / greatest))));
+    return weights;
 }
 
 template <typename Number>
@@ -75,7 +80,7 @@ ApertureShape polygon(std::string_view text, const FileLocation& where) {
 }
 
 ApertureShape imageOf(std::string_view digits, const FileLocation& where) {
-    ApertureShape shape{"image", {}, std::vector<std::uint8_t>(kSide * kSide)};
+    ApertureShape shape{"image", {}, std::vector<std::uint8_t>(kSectors * kRings)};
     if (digits.size() != 2 * shape.weights.size() ||
         digits.find_first_not_of(kHexDigits) != std::string_view::npos)
         throw badInput(where, "the weights of an aperture are not {} hexadecimal digits",
@@ -85,30 +90,19 @@ ApertureShape imageOf(std::string_view digits, const FileLocation& where) {
     for (std::size_t i = 0; i < shape.weights.size(); ++i) {
         shape.weights[i] = std::uint8_t(16 * digit(2 * i) + digit(2 * i + 1));
         open = open || shape.weights[i] == 255;
-        if (shape.weights[i] != 0 && !isInDisc(int(i) % kSide, int(i) / kSide))
-            throw badInput(where, "a weight of the aperture outside the lens's disc is not 0");
     }
     if (!open) throw badInput(where, "no weight of the aperture is fully open, ff");
     return shape;
-}
-
-/// One row or column of `count` values, `stride` apart, as kSide means over even parts.
-void resample(const double* from, std::size_t count, std::size_t stride, double* to, std::size_t toStride) {
-    const double step = double(count) / kSide;
-    for (std::size_t i = 0; i < kSide; ++i) {
-        const double begin = double(i) * step, end = double(i + 1) * step;
-        double sum = 0;
-        for (auto k = std::size_t(begin); k < count && double(k) < end; ++k)
-            sum += (std::min(end, double(k + 1)) - std::max(begin, double(k))) * from[k * stride];
-        to[i * toStride] = sum / step;
-    }
 }
 
 } // namespace
 
 std::optional<ApertureShape> parseAperture(std::string_view text, const FileLocation& where) {
     if (text == "disc") return ApertureShape{};
-    if (text == "gaussian") return gaussian();
+    if (text == "gaussian")
+        return ApertureShape{"gaussian", {}, weightsOf([](glm::dvec2 p) {
+                                 return std::exp(-glm::dot(p, p)) - std::exp(-1.0);
+                             })};
     if (text == "square")
         return ApertureShape{"square", corners(4, std::numbers::sqrt2 / 2, std::numbers::sqrt2 / 2, 45), {}};
     if (text == "pentagon") return ApertureShape{"pentagon", corners(5, 0.8, 0.8, 180), {}};
@@ -132,24 +126,15 @@ std::string textOf(const ApertureShape& shape) {
 }
 
 ApertureShape apertureOfImage(const Image& image, const FileLocation& where) {
-    const auto width = std::size_t(image.width()), height = std::size_t(image.height());
-    std::vector<double> grey(width * height), wide(kSide * height), fine(kSide * kSide);
-    for (std::size_t i = 0; i < grey.size(); ++i)
-        grey[i] = double(std::max(image.pixels[i * image.channels.size()], 0.f));
-    for (std::size_t y = 0; y < height; ++y) resample(&grey[y * width], width, 1, &wide[y * kSide], 1);
-    for (std::size_t x = 0; x < kSide; ++x) resample(&wide[x], height, kSide, &fine[x], kSide);
-
-    double brightest = 0;
-    for (std::size_t i = 0; i < fine.size(); ++i) {
-        if (!isInDisc(int(i) % kSide, int(i) / kSide)) fine[i] = 0;
-        brightest = std::max(brightest, fine[i]);
-    }
-    if (!(brightest > 0))
+    const glm::ivec2 last(image.width() - 1, image.height() - 1);
+    ApertureShape shape{"image", {}, weightsOf([&](glm::dvec2 p) {
+                            const glm::dvec2 place = (p + 1.0) / 2.0 * glm::dvec2(last + 1);
+                            const glm::ivec2 pixel = glm::min(glm::ivec2(place), last);
+                            return double(std::max(image.at(pixel.x, pixel.y, 0), 0.f));
+                        })};
+    if (shape.weights.empty())
         throw badInput(where, "the image of the aperture is black within the disc of the lens: no light gets "
                               "through");
-    ApertureShape shape{"image", {}, {}};
-    for (const double value : fine)
-        shape.weights.push_back(std::uint8_t(std::lround(255 * (value / brightest))));
     return shape;
 }
 

@@ -5,7 +5,7 @@
 // The second to fifth are those of pbrt-v4's realistic camera, of the same sizes. A polygon is regular, with
 // its corners on the rim of the lens, one of them at the top, or turned counter-clockwise by DEGREES. Shapes
 // stand upright in the blur of what lies behind the plane in focus. An image covers the square around the
-// disc; what lies outside the disc is dark.
+// disc, and is cut to the disc.
 #pragma once
 #include "base/error.h"
 #include "image/image.h"
@@ -23,13 +23,14 @@ namespace slant {
 /// In lens coordinates: the unit disc, u to the right, v downwards. The disc itself has neither rim nor
 /// weights, every other shape one of them.
 struct ApertureShape {
-    static constexpr int kSide = 256; ///< pixels along a side of the weights
+    /// Sectors of the disc and rings in each, both evenly spaced: the cells of the weights.
+    static constexpr int kSectors = 512, kRings = 128;
 
     std::string name = "disc"; ///< as above, but "image" without its weights
     /// Corners of an outline around the centre; the triangles between it and each side have the same area.
     std::vector<glm::dvec2> rim;
-    /// Of the light that passes, row by row from the top: at least one is 255, those of pixels that are not
-    /// wholly in the disc are 0.
+    /// Of the light that passes, sector by sector from the right clockwise, from the centre outwards: at
+    /// least one is 255.
     std::vector<std::uint8_t> weights;
 };
 

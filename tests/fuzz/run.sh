@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the fuzzers (Debian packages clang and libclang-rt-14-dev) and runs each for some seconds:
+# Installs what the fuzzers need, builds them and runs each for some seconds:
 #     bash tests/fuzz/run.sh [SECONDS]        600 each unless told
 # Corpora grow under build/fuzz/corpus. What is found stops the run and is left as a file there; once mended, it goes
 # to tests/fuzz/seeds/NAME, which the normal tests replay.
@@ -8,7 +8,8 @@ cd "$(dirname "$0")/../.."
 seconds="${1:-600}"
 [[ $seconds =~ ^[0-9]+$ ]] || { echo "usage: tests/fuzz/run.sh [SECONDS]" >&2; exit 2; }
 
-command -v clang++ >/dev/null || { echo "error: needs clang and libclang-rt-14-dev" >&2; exit 1; }
+bash cmake/install_packages.sh
+bash cmake/install_packages.sh cmake/fuzz_packages.txt
 cmake --preset fuzz
 cmake --build --preset fuzz
 export UBSAN_OPTIONS=print_stacktrace=1 ASAN_OPTIONS=detect_leaks=0

@@ -127,7 +127,7 @@ TEST(OutputPattern, groupsHoldTheirOutputs) {
 }
 
 TEST(OutputPattern, groupsHoldTheirOutputsWhateverTheAperture) {
-    for (const char* shape : {"gaussian", "star", "polygon 5 7"})
+    for (const char* shape : {"disc", "gaussian", "star", "polygon 5 7"})
         for (const int count : {1, 64, 512}) {
             const OutputPattern pattern =
                 makeOutputPattern(count, 30, 0.7f, Aperture(*parseAperture(shape, {})));
