@@ -204,28 +204,25 @@ LensBox Aperture::outlineBox(vec2 squareMin, vec2 squareMax) const {
     LensBox box{vec2(2), vec2(-2)};
     for (const float x : {squareMin.x, squareMax.x})
         for (const float y : {squareMin.y, squareMax.y}) add(box, at({x, y}));
-    const auto follow = [&](double turn) {
-        const int side = int(std::floor(4 * turn + 0.5)) % 4; // of the square: right, top, left, bottom
-        const double along = 8 * turn - 2 * std::floor(4 * turn + 0.5);
-        constexpr std::array<glm::dvec2, 4> outwards{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
-        const glm::dvec2 out = outwards[std::size_t(side)], ray = out + along * glm::dvec2(-out.y, out.x);
-        double enter = 0, leave = 1;
-        for (int axis = 0; axis < 2; ++axis) {
-            const double low = squareMin[axis], high = squareMax[axis];
-            if (ray[axis] == 0) {
-                if (low > 0 || high < 0) leave = -1;
-                continue;
-            }
-            enter = std::max(enter, std::min(low / ray[axis], high / ray[axis]));
-            leave = std::min(leave, std::max(low / ray[axis], high / ray[axis]));
-        }
-        if (enter > leave) return;
-        add(box, at(vec2(enter * ray)));
-        add(box, at(vec2(leave * ray)));
-    };
+    std::vector<float> turns{0.125f, 0.375f, 0.625f, 0.875f};
     const int corners = int(data_->table[0]);
-    for (int i = 0; i < corners; ++i) follow(double(i) / corners);
-    for (int i = 1; i < 8; i += 2) follow(i / 8.0);
+    for (int i = 0; i < corners; ++i) turns.push_back(float(i) / float(corners));
+    for (const float turn : turns) {
+        const vec2 ray = squareOf({1, turn});
+        float enter = 0, leave = 1;
+        for (int axis = 0; axis < 2; ++axis) {
+            const float low = squareMin[axis], high = squareMax[axis];
+            if (ray[axis] != 0) {
+                enter = glm::max(enter, glm::min(low / ray[axis], high / ray[axis]));
+                leave = glm::min(leave, glm::max(low / ray[axis], high / ray[axis]));
+            } else if (low > 0 || high < 0) {
+                leave = -1;
+            }
+        }
+        if (enter > leave) continue;
+        add(box, at(enter * ray));
+        add(box, at(leave * ray));
+    }
     constexpr float kRounding = 1e-6f;
     return {box.min - kRounding, box.max + kRounding};
 }

@@ -49,6 +49,21 @@ TEST(ThinLens, PointsLieOnSlantedLines) {
     }
 }
 
+TEST(ThinLens, RaysGoWhereTheApertureIsOpen) {
+    Scene scene = defocusedScene();
+    for (const char* name : {"star", "polygon 6", "gaussian"}) {
+        scene.camera.aperture = *parseAperture(name, {});
+        const ThinLens camera(scene.camera, scene.film);
+        for (int i = 0; i < 1000; ++i) {
+            const glm::vec2 square(float(i % 32) / 32 + 0.01f, float(i / 32) / 32 + 0.01f);
+            const CameraSample seen = camera.sample({100, 30}, square);
+            EXPECT_EQ(seen.weight, 1);
+            EXPECT_GT(camera.aperture().transmission(seen.lens), 0) << name;
+            EXPECT_EQ(seen.ray.origin, camera.ray({100, 30}, seen.lens).origin);
+        }
+    }
+}
+
 TEST(ThinLens, SlopeIsZeroInFocusAndNegativeBefore) {
     Scene scene = defocusedScene();
     SlopeModel slope = ThinLens(scene.camera, scene.film).slopeModel();
