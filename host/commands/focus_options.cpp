@@ -61,8 +61,10 @@ void checkFocusOptions(const FocusOptions& options, Method method) {
 float lensScale(const FocusOptions& options, const FieldDetails& details) {
     if (!options.fStop) return options.apertureScale.value_or(1.f);
     if (!(details.focalLength > 0) || !(details.lensRadius > 0))
-        throw Error(ErrorCode::usage, "--f-stop needs a field that says its focal length and lens radius "
-                                      "(slant:focalLength, slant:lensRadius); use --aperture-scale");
+        throw Error(ErrorCode::usage,
+                    "--f-stop needs a field that says its focal length and lens radius "
+                    "(slant:focalLength, slant:lensRadius), and a perspective camera has no "
+                    "focal length; use --aperture-scale");
     return details.focalLength / (2 * *options.fStop * details.lensRadius);
 }
 

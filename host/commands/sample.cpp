@@ -26,6 +26,23 @@ void checkOptions(const FieldOptions& options) {
         if (!path.empty()) checkWritable(path);
 }
 
+FieldDetails detailsOf(const FieldOptions& options, const Scene& scene, const Camera& camera) {
+    FieldDetails details;
+    details.film = {0, 0, scene.film.xResolution, scene.film.yResolution};
+    details.filter = scene.filter;
+    if (const CompoundLens* lens = camera.compoundLens()) {
+        constexpr double kMillimetres = 1000; // a metre
+        details.lensRadius = float(lens->lens().entrancePupil().radius / kMillimetres);
+        details.focalLength = float(lens->lens().focalLength() / kMillimetres);
+        details.unit = "m";
+    } else {
+        details.lensRadius = scene.camera.lensRadius;
+    }
+    details.source = options.scene;
+    details.seed = options.common.seed;
+    return details;
+}
+
 void runSample(const FieldOptions& options) {
     const Stopwatch watch;
     const CommonOptions& common = options.common;
@@ -40,13 +57,7 @@ void runSample(const FieldOptions& options) {
     sampling.auxiliary = options.auxiliary;
     const LightField field = traceLightField(tracer, scene, sampling, monitor);
 
-    FieldDetails details;
-    details.film = {0, 0, scene.film.xResolution, scene.film.yResolution};
-    details.filter = scene.filter;
-    if (!scene.realistic) details.lensRadius = scene.camera.lensRadius;
-    details.source = options.scene;
-    details.seed = common.seed;
-    writeField(options.output, field, details, monitor);
+    writeField(options.output, field, detailsOf(options, scene, tracer.camera()), monitor);
     if (!common.statsPath.empty())
         writeStats(common.statsPath, monitor.stages(), watch.seconds(),
                    {{"scene", options.scene},

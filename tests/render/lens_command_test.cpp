@@ -41,6 +41,21 @@ TEST(LensCommand, takesTheCameraOfAScene) {
     EXPECT_THAT(run.out, HasSubstr("36.00 mm across"));
 }
 
+TEST(LensCommand, fieldsOfALensKnowItsFigures) {
+    const test::TempDir dir;
+    const std::string scene = kScenes + "row-dgauss.pbrt", field = dir.file("field.exr");
+    EXPECT_EQ(
+        test::runSlant({"sample", scene, "--crop", "240,242,130,132", "--spp", "1", "-o", field}).status, 0);
+    const std::string info = test::runSlant({"info", field}).out, lens = test::runSlant({"lens", scene}).out;
+    const auto figure = [](const std::string& text, const std::string& name) {
+        const std::size_t at = text.find(name);
+        EXPECT_NE(at, std::string::npos) << name << " in " << text;
+        return at == std::string::npos ? 0 : std::stod(text.substr(at + name.size()));
+    };
+    EXPECT_NEAR(figure(info, "f-number"), figure(lens, "f-number"), 0.006);
+    EXPECT_NEAR(figure(info, "focal length") * 1000, figure(lens, "focal length"), 0.001);
+}
+
 TEST(LensCommand, anAlmostClosedLensNeedsTwoConstants) {
     const test::ProgramResult run = test::runSlant(
         {"lens", kScenes + "lenses/telephoto-250mm.dat", "--aperture", "4", "--focus-distance", "20"});
