@@ -1,6 +1,6 @@
 #version 460
-// For each list: the clusters of surfaces that it sees, if its outputs can be taken from the layer map. As clustersOf
-// of host/reconstruct/layers.cpp.
+// For each list: the clusters of surfaces that it sees, if its outputs can be taken from the layer map. As rungOf of
+// host/reconstruct/layers.cpp.
 #extension GL_GOOGLE_include_directive : require
 #include "lib/candidate.glsl"
 #include "lib/grid.glsl"
@@ -12,23 +12,31 @@ layout(set = 0, binding = 0) uniform utextureBuffer listStart;
 layout(set = 0, binding = 1) uniform utextureBuffer listBricks;
 layout(set = 0, binding = 2) uniform textureBuffer lensBoxes;
 layout(set = 0, binding = 3, r32ui) uniform writeonly uimageBuffer rungs;
-layout(set = 0, binding = 4, r32f) uniform writeonly imageBuffer clusters; // slopeMin, slopeMax from twice the list's start on
+layout(set = 0, binding = 4, r32ui) uniform writeonly uimageBuffer leftPixels;
+layout(set = 0, binding = 5, rgba32f) uniform writeonly imageBuffer clusters; // from the list's start on
 layout(push_constant) uniform Push { LayerPush push; };
 
 struct Clusters {
     uint count;
-    bool fits;
+    bool fits, sharp;
     vec2 open; // least and greatest slope
 };
 
+/// Level of the map where lens positions are near enough to one another on a surface of this slope or more.
+float levelFor(float slope) {
+    float spacing = float(kMapTexels) * push.map.spreadPerPx * max(slope, 0.0);
+    int level = 0;
+    for (; level + 1 < push.map.levels && spacing >= kLevelSpacing; ++level) spacing *= 0.5;
+    return float(level);
+}
+
 void close(inout Clusters found, float lensRadius, uint listBegin) {
-    const bool inFocus = max(found.open.x, -found.open.y) < kLeastSlope;
+    const float least = max(found.open.x, -found.open.y);
     const float reach = max(-found.open.x, found.open.y) * lensRadius;
-    found.fits = found.fits && !inFocus && reach <= push.map.reachPx &&
+    found.sharp = found.sharp || least < kLeastSlope;
+    found.fits = found.fits && reach <= push.map.reachPx &&
                  (found.open.y - found.open.x) * lensRadius <= kWidestClusterPx && found.count < kMaxClusters;
-    const int place = 2 * int(listBegin + found.count);
-    imageStore(clusters, place, vec4(found.open.x));
-    imageStore(clusters, place + 1, vec4(found.open.y));
+    imageStore(clusters, int(listBegin + found.count), vec4(found.open, levelFor(least), 0.0));
     ++found.count;
 }
 
@@ -40,7 +48,7 @@ void main() {
     const vec2 farthest = max(abs(box.xy), abs(box.zw));
     const float lensRadius = min(sqrt(farthest.x * farthest.x + farthest.y * farthest.y), push.lensScale);
     const uint begin = texelFetch(listStart, int(list)).x, end = texelFetch(listStart, int(list) + 1).x;
-    Clusters found = Clusters(0u, true, vec2(kInfinity, -kInfinity));
+    Clusters found = Clusters(0u, true, false, vec2(kInfinity, -kInfinity));
     const uint last = min(end, begin + uint(kMaxLoopIterations));
     for (uint entry = begin; entry < last; ++entry) {
         const Brick brick = brickOf(texelFetch(listBricks, int(entry)));
@@ -51,5 +59,7 @@ void main() {
         found.open = vec2(min(found.open.x, brick.slopeMin), max(found.open.y, brick.slopeMax));
     }
     if (end > begin) close(found, lensRadius, begin);
-    imageStore(rungs, int(list), uvec4(found.fits && last == end ? found.count : 0u));
+    const bool served = found.count > 0u && found.fits && last == end && !(found.sharp && push.map.tooCoarse != 0u);
+    imageStore(rungs, int(list), uvec4(served ? found.count | (found.sharp ? kSharpRung : 0u) : 0u));
+    for (int word = 0; word < 2; ++word) imageStore(leftPixels, 2 * int(list) + word, uvec4(served ? 0u : ~0u));
 }

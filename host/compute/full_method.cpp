@@ -7,6 +7,7 @@
 #include "reconstruct/stage_timer.h"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
 #include <optional>
 
@@ -62,44 +63,48 @@ private:
             std::iota(bricks.begin(), bricks.end(), 0u);
             return resolveTexel({bins, bricks}, p, mapRadius(bins.grid));
         });
-        timer.items = layerPasses_->heads().texels();
+        timer.items = layerPasses_->texels().texels();
         timer.bytes = run_.device.peakBytes();
-        run_.observe("layer_map.heads", layerPasses_->heads());
-        run_.observe("layer_map.layers", layerPasses_->layers());
+        run_.observe("layer_map", layerPasses_->texels());
     }
 
-    /// What the layer map serves of a chunk, if there is one; the lists that are left: tile x, y, group,
-    /// list.
-    std::vector<uvec4> takeFromMap(const Band& band, const DeviceLists& lists, const OutputPush& push,
-                                   const Buffer& dense) {
-        std::vector<uint> rungs(lists.start.texels() - 1, 0);
+    /// What is left of a chunk to be searched for in the bins.
+    struct Left {
+        std::vector<uvec4> lists;  ///< tile x, y, group, list
+        Buffer pixels;             ///< bits of their tiles' pixels
+        std::uint64_t outputs = 0; ///< in all
+    };
+    /// Takes what the layer map serves of a chunk, if there is one.
+    Left takeFromMap(const Band& band, const DeviceLists& lists, const OutputPush& push, const Buffer& dense) {
+        std::vector<uint> rungs(lists.start.texels() - 1), pixels(2 * rungs.size(), ~0u);
+        Left left{{}, Buffer(run_.device, TexelFormat::r32ui, pixels.size())};
         if (layerPasses_) {
             const Buffer buffer(run_.device, TexelFormat::r32ui, rungs.size());
             if (run_.observer) run_.commands.fill(dense, 0); // planes that nobody reads
-            layerPasses_->record(run_.commands, listPasses_, lists, push, buffer, dense);
+            layerPasses_->record(run_.commands, listPasses_, lists, outputPasses_.pattern(), push, buffer,
+                                 left.pixels, dense);
             run_.commands.run();
             buffer.download(rungs);
+            left.pixels.download(pixels);
             run_.observe("rungs", buffer);
-            addMapShare(run_.report.mapShare, run_.field.frame, band, rungs, pattern_.groups.size());
+            run_.observe("left_pixels", left.pixels);
+            addMapShare(run_.report.mapShare, run_.field.frame, band, rungs, pixels, pattern_.groups.size());
+        } else {
+            left.pixels.upload(pixels);
         }
-        std::vector<uvec4> left;
-        uint list = 0;
-        for (uint group = 0; group < push.groupCount; ++group)
-            for (uint y = 0; y < uint(push.outputs.tileCount.y); ++y)
-                for (uint x = 0; x < uint(push.outputs.tileCount.x); ++x, ++list)
-                    if (rungs[list] == 0) left.emplace_back(x, y, group, list);
+        const ivec2 tiles = push.outputs.tileCount;
+        for (uint list = 0; list < rungs.size(); ++list) {
+            if ((pixels[2 * list] | pixels[2 * list + 1]) == 0) continue;
+            const uint tile = list % uint(tiles.x * tiles.y);
+            const ivec2 place(tile % tiles.x, tile / tiles.x);
+            left.lists.emplace_back(place.x, place.y, list / uint(tiles.x * tiles.y), list);
+            const ivec2 size = glm::min(push.outputs.regionSize - kTileSize * place, ivec2(kTileSize));
+            left.outputs += rungs[list] == 0
+                                ? std::uint64_t(size.x * size.y)
+                                : std::uint64_t(std::popcount(pixels[2 * list]) + std::popcount(pixels[2 * list + 1]));
+        }
+        left.outputs <<= push.groupBits;
         return left;
-    }
-
-    /// Outputs of some lists.
-    static std::uint64_t outputsOf(const std::vector<uvec4>& lists, const OutputPush& push) {
-        std::uint64_t pixels = 0;
-        for (const uvec4& list : lists) {
-            const ivec2 corner = kTileSize * ivec2(int(list.x), int(list.y));
-            const ivec2 size = glm::min(push.outputs.regionSize - corner, ivec2(kTileSize));
-            pixels += std::uint64_t(size.x * size.y);
-        }
-        return pixels << push.groupBits;
     }
 
     void chunk(const Band& band, const OutputPush& push, int planes, Buffer& dense) {
@@ -110,11 +115,11 @@ private:
             const DeviceLists lists = listPasses_.run(run_.commands, bins_, push, 2 * bins_.grid.radiusPx);
             run_.observe("lists.start", lists.start);
             run_.observe("lists.bricks", lists.ids);
-            const std::vector<uvec4> left = takeFromMap(band, lists, push, dense);
+            const Left left = takeFromMap(band, lists, push, dense);
             const OutputPasses::Result result =
-                outputPasses_.run(run_.commands, listPasses_, bins_, lists, left, push, dense);
+                outputPasses_.run(run_.commands, listPasses_, bins_, lists, left.lists, left.pixels, push, dense);
             if (!result.overflowed.empty()) finishOnCpu(band, push, result.overflowed, dense);
-            report.layered += samples - outputsOf(left, push);
+            report.layered += samples - left.outputs;
             report.visibility += result.visibility;
             report.widened += result.widened;
             report.holes += result.holes;

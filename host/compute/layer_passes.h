@@ -1,4 +1,4 @@
-// Stages "layer_map" and "rungs" on the device: the same words as makeLayerMap and throughLayers
+// Stages "layer_map" and "rungs" on the device: the same words as makeLayerMap and lookThrough
 // (reconstruct/layer_map.h, reconstruct/layers.h).
 #pragma once
 #include "compute/list_passes.h"
@@ -20,20 +20,20 @@ public:
                  const std::function<MapTexel(vec2)>& resolve);
 
     /// Records: takes from the map, into `dense`, what it can serve of the lists of a chunk; into `rungs`, of
-    /// each list, the clusters that it was taken from the map through; 0: none. All must live until the
+    /// each list, its rung (kSharpRung); into `leftPixels`, two words a list, the bits of the tile's pixels that
+    /// it could not serve. All must live until the
     /// commands ran.
     void record(CommandList& commands, const ListPasses& listPasses, const DeviceLists& lists,
-                const OutputPush& push, const Buffer& rungs, const Buffer& dense);
+                const Buffer& pattern, const OutputPush& push, const Buffer& rungs, const Buffer& leftPixels, const Buffer& dense);
 
-    const Buffer& heads() const { return heads_; }
-    const Buffer& layers() const { return layers_; }
+    const Buffer& texels() const { return texels_; }
 
 private:
     Device& device_;
     const OutputPattern& pattern_;
     MapLayout layout_{};
-    Pass texels_, reduce_, rungsPass_, outputs_;
-    Buffer heads_, layers_, lensPoints_, clusters_;
+    Pass map_, reduce_, rungs_, layers_;
+    Buffer texels_, lensPoints_, clusters_;
 };
 
 } // namespace slant

@@ -28,6 +28,7 @@ void CpuChunk::run(Monitor& monitor, ReconstructReport& report) {
     lists = makeTileLists(bins_, layout_, groups_, 2 * bins_.grid.radiusPx);
     const std::size_t tiles = std::size_t(layout_.tileCount.x) * layout_.tileCount.y;
     rungs.assign(tiles * groups_.size(), 0);
+    leftPixels.assign(2 * rungs.size(), ~0u);
     parallelFor(0, tiles, 1, [&](std::size_t first, std::size_t last) {
         Counts counts;
         for (std::size_t tile = first; tile < last; ++tile) runTile(tile, counts);
@@ -66,39 +67,43 @@ void CpuChunk::runTile(std::size_t tile, Counts& counts) {
     const int groupSize = pattern_.groupSize();
     for (std::size_t group = 0; group < groups_.size(); ++group) {
         const std::size_t list = group * tiles + tile;
-        if (map_) {
-            const std::vector<Cluster> clusters =
-                clustersOf(bins_, contextOf(bins_, lists, list).bricks, groups_[group], pattern_.lensScale,
-                           map_->layout.reachPx);
-            if (!clusters.empty() && takeFromMap(group, corner, clusters)) {
-                rungs[list] = uint(clusters.size());
-                const auto outputs = std::uint64_t((end.x - corner.x) * (end.y - corner.y) * groupSize);
-                counts.outputs += outputs;
-                counts.layered += outputs;
-                continue;
-            }
-        }
-        for (int k = 0; k < groupSize; ++k)
-            for (int y = corner.y; y < end.y; ++y)
-                for (int x = corner.x; x < end.x; ++x)
+        Rung rung;
+        if (map_)
+            rung = rungOf(bins_, contextOf(bins_, lists, list).bricks, groups_[group], pattern_.lensScale,
+                          map_->layout);
+        rungs[list] = rung.code();
+        if (!rung.clusters.empty()) leftPixels[2 * list] = leftPixels[2 * list + 1] = 0;
+        for (int y = corner.y; y < end.y; ++y)
+            for (int x = corner.x; x < end.x; ++x) {
+                if (takeFromMap(group, ivec2(x, y), rung)) {
+                    counts.layered += std::uint64_t(groupSize);
+                    continue;
+                }
+                const int pixel = (y - corner.y) * kTileSize + x - corner.x;
+                leftPixels[2 * list + std::size_t(pixel >> 5)] |= 1u << (pixel & 31);
+                for (int k = 0; k < groupSize; ++k)
                     runSlot(slotAt(ivec2(x, y), int(group) * groupSize + k), counts);
+            }
+        counts.outputs += std::uint64_t((end.x - corner.x) * (end.y - corner.y) * groupSize);
     }
 }
 
-/// False where one of them meets nothing: then all have to be searched for. Whether that is so must not
-/// depend on bands, so positions outside the region are looked at too.
-bool CpuChunk::takeFromMap(std::size_t group, ivec2 corner, std::span<const Cluster> clusters) {
-    const int first = int(group) << pattern_.groupBits;
-    const std::span<const vec4> points(&lensPoints_[std::size_t(firstOutput_ + first)],
-                                       std::size_t(pattern_.groupSize()));
-    for (int y = corner.y; y < corner.y + kTileSize; ++y)
-        for (int x = corner.x; x < corner.x + kTileSize; ++x) {
-            const vec2 center = vec2(layout_.regionOrigin + ivec2(x, y)) + 0.5f;
-            const std::optional<vec3> rgb = throughLayers(*map_, clusters, center, points);
-            if (!rgb) return false;
-            if (x < layout_.regionSize.x && y < layout_.regionSize.y)
-                dense.samples[slotAt(ivec2(x, y), first).sample] = vec4(*rgb, kWholePixel);
-        }
+/// False where an output of the pixel meets nothing: then all have to be searched for.
+bool CpuChunk::takeFromMap(std::size_t group, ivec2 position, const Rung& rung) {
+    if (rung.clusters.empty()) return false;
+    const int size = pattern_.groupSize(), first = int(group) * size;
+    vec3 sum(0);
+    for (int k = first; k < first + size; ++k) {
+        const Slot slot = slotAt(position, k);
+        const Output own = at(slot);
+        const vec2 place = rung.sharp ? own.xy : vec2(slot.pixel) + 0.5f;
+        const std::optional<vec3> rgb =
+            lookThrough(*map_, rung.clusters, place, vec2(lensPoints_[std::size_t(firstOutput_ + k)]));
+        if (!rgb) return false;
+        sum += *rgb;
+        if (rung.sharp) dense.samples[slot.sample] = vec4(*rgb, own.positionCode);
+    }
+    if (!rung.sharp) dense.samples[slotAt(position, first).sample] = vec4(sum / float(size), kWholePixel);
     return true;
 }
 
@@ -112,7 +117,6 @@ void CpuChunk::runSlot(const Slot& slot, Counts& counts) {
     }
     if (result.outcome == Outcome::hole) counts.holes.push_back(slot);
     store(slot, output, result);
-    ++counts.outputs;
 }
 
 void CpuChunk::redo(std::span<const uint> indices, ReconstructReport& report) {

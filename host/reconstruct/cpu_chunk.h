@@ -27,8 +27,8 @@ public:
 
     DenseSamples dense;
     TileLists lists;
-    std::vector<uint>
-        rungs; ///< of each list: clusters that its outputs were taken from the map through; 0: none
+    std::vector<uint> rungs;      ///< of each list, see kSharpRung
+    std::vector<uint> leftPixels; ///< two words a list: bits of the tile's pixels searched for in the bins
 
 private:
     /// Where an output is stored, and in which list its bricks stand.
@@ -46,7 +46,7 @@ private:
     Output at(const Slot& slot) const;
     void store(const Slot& slot, const Output& output, const Reconstructed& result);
     void runTile(std::size_t tile, Counts& counts);
-    bool takeFromMap(std::size_t group, ivec2 corner, std::span<const Cluster> clusters);
+    bool takeFromMap(std::size_t group, ivec2 position, const Rung& rung);
     void runSlot(const Slot& slot, Counts& counts);
     void add(const Counts& counts);
     void widen(ReconstructReport& report);

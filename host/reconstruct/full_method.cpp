@@ -15,10 +15,9 @@ namespace {
 LayerMap layerMapOf(CpuRun& run, const Bins& bins, const MapLayout& layout) {
     StageTimer timer(run.report, "layer_map", "texels");
     LayerMap map = makeLayerMap(bins, layout);
-    timer.items = map.heads.size();
-    timer.bytes = (map.heads.size() + map.layers.size()) * sizeof(vec4);
-    run.observe("layer_map.heads", map.heads);
-    run.observe("layer_map.layers", map.layers);
+    timer.items = map.texels.size();
+    timer.bytes = map.texels.size() * sizeof(glm::uvec4);
+    run.observe("layer_map", map.texels);
     return map;
 }
 
@@ -55,7 +54,9 @@ void fullMethod(CpuRun& run) {
             run.observe("lists.bricks", chunk.lists.bricks);
             if (map) {
                 run.observe("rungs", chunk.rungs);
-                addMapShare(run.report.mapShare, frame, band, chunk.rungs, pattern.groups.size());
+                run.observe("left_pixels", chunk.leftPixels);
+                addMapShare(run.report.mapShare, frame, band, chunk.rungs, chunk.leftPixels,
+                            pattern.groups.size());
             }
             run.observe("dense", chunk.dense.samples);
             StageTimer timer(run.report, "pixel_filter", "outputs");

@@ -16,12 +16,10 @@ constexpr float kMostReachPx = 128;
 /// Adds a layer to a texel that has room for it. What has nothing before or behind it fills the texel.
 void close(MapTexel& texel, const Surface& surface, float fullWeight, bool last) {
     if (!(surface.innerWeight > 0)) return;
-    const int count = int(texel.head.w);
-    const bool full = (last && count == 0) || isSolid(surface, fullWeight);
+    const bool full = (last && texel.count == 0) || isSolid(surface, fullWeight);
     const float coverage = full ? 1.f : glm::min(surface.innerWeight / fullWeight, 1.f);
-    texel.head[count] = surface.slopeSum / surface.innerWeight;
-    texel.layers[std::size_t(count)] = vec4(surface.innerSum / surface.innerWeight, coverage);
-    texel.head.w = float(count + 1);
+    texel.layers[std::size_t(texel.count++)] = {surface.innerSum / surface.innerWeight, coverage,
+                                                surface.slopeSum / surface.innerWeight};
 }
 
 /// Down or up to a multiple of kMapAlignPx.
@@ -44,7 +42,7 @@ int mapRows(const Rect& frame, float reachPx, std::uint64_t bytes) {
     const double margin = 2 * (double(reachPx) + 3 * kMapAlignPx);
     const double texels =
         (frame.width() + margin) * kMapTexels * kMapTexels * 4 / 3; // of a row, with all levels
-    const double rowBytes = texels * (1 + kMapLayers) * sizeof(vec4);
+    const double rowBytes = texels * sizeof(glm::uvec4);
     const double rows = double(bytes) / rowBytes - margin;
     if (rows < kTileSize)
         throw Error(
@@ -66,6 +64,8 @@ MapLayout chooseMap(const GridLayout& grid, const Rect& region, float reachPx, f
     map.surfaceGap = grid.surfaceGap;
     map.reachPx = reachPx;
     map.spreadPerPx = spreadPerPx;
+    map.code = slopeCode(grid);
+    map.tooCoarse = grid.radiusPx < kMapTentPx;
     map.levels = 1;
     for (float spacing = float(kMapTexels) * spreadPerPx * largestSlope(grid);
          spacing >= kLevelSpacing && map.levels < kMapLevels; spacing *= 0.5f)
@@ -108,13 +108,13 @@ MapTexel resolveWithin(const SearchContext& context, vec2 p, float radius, float
     const GridLayout& grid = context.bins.grid;
     const float widening = radius / grid.radiusPx;
     const float fullWeight = kFullWeight * widening * widening;
-    MapTexel texel{vec4(kNoLayer, kNoLayer, kNoLayer, 0), {}};
+    MapTexel texel;
     Surface surface;
     const auto visit = [&](const Candidate& candidate) {
         if (surface.count > 0 && candidate.slope > surface.slopeMax + grid.surfaceGap) {
             close(texel, surface, fullWeight, false);
             surface = Surface{};
-            if (int(texel.head.w) == kMapLayers) return false;
+            if (texel.count == kMapLayers) return false;
         }
         addSample(surface, candidate, radianceOf(context, candidate), radius);
         return true;
@@ -129,22 +129,18 @@ MapTexel resolveWithin(const SearchContext& context, vec2 p, float radius, float
 
 MapTexel resolveTexel(const SearchContext& context, vec2 p, float radius) {
     const MapTexel texel = resolveWithin(context, p, radius, radius);
-    return texel.head.w > 1 ? resolveWithin(context, p, radius, 2 * radius) : texel;
+    return texel.count > 1 ? resolveWithin(context, p, radius, 2 * radius) : texel;
 }
 
 namespace {
 
-/// The four texels below one.
-struct Children {
-    std::array<vec4, 4> heads;
-    std::array<std::size_t, 4> texels;
-};
+/// The layers of the four texels below one, those that are there.
+using Children = std::array<MapLayer, 4 * kMapLayers>;
 
 float leastAbove(const Children& children, float slope) {
     float least = kNoLayer;
-    for (const vec4& head : children.heads)
-        for (int i = 0; i < kMapLayers; ++i)
-            if (head[i] > slope) least = glm::min(least, head[i]);
+    for (const MapLayer& child : children)
+        if (child.slope > slope) least = glm::min(least, child.slope);
     return least;
 }
 
@@ -152,7 +148,7 @@ float leastAbove(const Children& children, float slope) {
 bool nextLayer(const Children& children, float gap, float& begin, float& end) {
     begin = end = leastAbove(children, end);
     if (begin >= kNoLayer) return false;
-    for (int i = 0; i < 4 * kMapLayers; ++i) {
+    for (std::size_t i = 0; i < children.size(); ++i) {
         const float next = leastAbove(children, end);
         if (next > end + gap) break;
         end = next;
@@ -160,50 +156,43 @@ bool nextLayer(const Children& children, float gap, float& begin, float& end) {
     return true;
 }
 
-MapTexel merge(const LayerMap& map, const Children& children) {
-    MapTexel texel{vec4(kNoLayer, kNoLayer, kNoLayer, 0), {}};
-    float begin = 0, end = -std::numeric_limits<float>::infinity();
-    for (int count = 0; count < kMapLayers && nextLayer(children, map.layout.surfaceGap, begin, end);
-         ++count) {
-        vec3 sum(0);
-        float coverage = 0, slopeSum = 0;
-        for (int child = 0; child < 4; ++child)
-            for (int i = 0; i < kMapLayers; ++i) {
-                const float slope = children.heads[std::size_t(child)][i];
-                if (!(slope >= begin && slope <= end)) continue;
-                const vec4& layer = map.layers[children.texels[std::size_t(child)] * kMapLayers + i];
-                sum += layer.w * vec3(layer);
-                coverage += layer.w;
-                slopeSum += layer.w * slope;
-            }
-        texel.head[count] = slopeSum / coverage;
-        texel.layers[std::size_t(count)] = vec4(sum / coverage, glm::min(0.25f * coverage, 1.f));
-        texel.head.w = float(count + 1);
+MapLayer merged(const Children& children, float begin, float end) {
+    vec3 sum(0);
+    float coverage = 0, slopeSum = 0;
+    for (const MapLayer& child : children) {
+        if (!(child.slope >= begin && child.slope <= end)) continue;
+        sum += child.coverage * child.rgb;
+        coverage += child.coverage;
+        slopeSum += child.coverage * child.slope;
     }
-    return texel;
+    return {sum / coverage, glm::min(0.25f * coverage, 1.f), slopeSum / coverage};
 }
 
-void store(LayerMap& map, std::size_t index, const MapTexel& texel) {
-    map.heads[index] = texel.head;
-    for (int i = 0; i < kMapLayers; ++i) map.layers[index * kMapLayers + i] = texel.layers[std::size_t(i)];
+MapTexel merge(const Children& children, float gap) {
+    MapTexel texel;
+    float begin = 0, end = -std::numeric_limits<float>::infinity();
+    while (texel.count < kMapLayers && nextLayer(children, gap, begin, end))
+        texel.layers[std::size_t(texel.count++)] = merged(children, begin, end);
+    return texel;
 }
 
 } // namespace
 
 void reduceLevel(LayerMap& map, int level) {
-    const ivec2 below = levelSize(map.layout, level - 1), size = levelSize(map.layout, level);
-    const std::size_t source = levelBegin(map.layout, level - 1), target = levelBegin(map.layout, level);
+    const MapLayout& layout = map.layout;
+    const ivec2 below = levelSize(layout, level - 1), size = levelSize(layout, level);
+    const std::size_t source = levelBegin(layout, level - 1), target = levelBegin(layout, level);
     parallelFor(0, std::size_t(size.y), 8, [&](std::size_t first, std::size_t last) {
         for (int y = int(first); y < int(last); ++y)
             for (int x = 0; x < size.x; ++x) {
                 Children children;
-                for (std::size_t child = 0; child < 4; ++child) {
-                    const std::size_t column = 2 * std::size_t(x) + child % 2,
-                                      row = 2 * std::size_t(y) + child / 2;
-                    children.texels[child] = source + row * below.x + column;
-                    children.heads[child] = map.heads[children.texels[child]];
+                for (std::size_t i = 0; i < 4; ++i) {
+                    const std::size_t column = 2 * std::size_t(x) + i % 2, row = 2 * std::size_t(y) + i / 2;
+                    const MapTexel child = unpackTexel(map.texels[source + row * below.x + column], layout.code);
+                    std::copy(child.layers.begin(), child.layers.end(), &children[i * kMapLayers]);
                 }
-                store(map, target + std::size_t(y) * size.x + x, merge(map, children));
+                map.texels[target + std::size_t(y) * size.x + x] =
+                    packTexel(merge(children, layout.surfaceGap), layout.code);
             }
     });
 }
@@ -211,9 +200,7 @@ void reduceLevel(LayerMap& map, int level) {
 LayerMap makeLayerMap(const Bins& bins, const MapLayout& layout) {
     LayerMap map;
     map.layout = layout;
-    const std::size_t texels = levelBegin(layout, layout.levels);
-    map.heads.resize(texels);
-    map.layers.resize(texels * kMapLayers);
+    map.texels.resize(levelBegin(layout, layout.levels));
 
     const float radius = mapRadius(bins.grid);
     const OutputLayout tiles = mapTiles(layout);
@@ -226,8 +213,8 @@ LayerMap makeLayerMap(const Bins& bins, const MapLayout& layout) {
                 const std::size_t list = std::size_t(tile.y) * tiles.tileCount.x + tile.x;
                 const std::span<const uint> bricks(lists.bricks.data() + lists.start[list],
                                                    lists.start[list + 1] - lists.start[list]);
-                store(map, std::size_t(y) * layout.size.x + x,
-                      resolveTexel({bins, bricks}, texelCenter(layout, ivec2(x, y)), radius));
+                map.texels[std::size_t(y) * layout.size.x + x] = packTexel(
+                    resolveTexel({bins, bricks}, texelCenter(layout, ivec2(x, y)), radius), layout.code);
             }
     });
     for (int level = 1; level < layout.levels; ++level) reduceLevel(map, level);

@@ -1,25 +1,22 @@
 // The layer map: what the lens centre sees, and what lies hidden behind it, half a pixel at a time.
 //
 // The light field of a scene that keeps still depends on pinhole position and slope alone, up to what hides
-// what. So the samples around a pinhole position are told apart into surfaces once, for all outputs; each
-// keeps its mean slope and radiance and how much of the texel it covers. Through any lens position the
+// what. So the samples around a pinhole position are told apart into surfaces once, for all outputs; the two
+// foremost keep their mean slope and radiance and how much of the texel they cover. Through any lens position the
 // surfaces are then found by lookups. Higher levels are means over 2x2 texels, for lens positions that lie
 // far apart.
 #pragma once
 #include "reconstruct/bins.h"
 #include "reconstruct/candidates.h"
-#include "shared/layers.h"
+#include "reconstruct/map_texel.h"
 
-#include <array>
 #include <vector>
 
 namespace slant {
 
 struct LayerMap {
     MapLayout layout{};
-    std::vector<vec4>
-        heads; ///< [texel]: slopes of its layers, front to back, kNoLayer for the rest; their number
-    std::vector<vec4> layers; ///< [texel][kMapLayers]: mean radiance, coverage in (0, 1]; zeros for the rest
+    std::vector<glm::uvec4> texels; ///< packed, a level after the other
 };
 
 /// How far a surface may move over the lens, pixels, so that the map serves it: as far as any does, up to a
@@ -40,10 +37,6 @@ vec2 texelCenter(const MapLayout& map, ivec2 texel);
 /// Width of the tent of a texel of level 0, pixels; it is searched for within twice that.
 float mapRadius(const GridLayout& grid);
 
-struct MapTexel {
-    vec4 head;
-    std::array<vec4, kMapLayers> layers;
-};
 /// The surfaces around pinhole position p, a tent over `radius`; where there are several, told apart by the
 /// samples within twice that, as resolveVisibility does.
 MapTexel resolveTexel(const SearchContext& context, vec2 p, float radius);

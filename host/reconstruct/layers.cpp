@@ -16,55 +16,53 @@ struct Lookup {
     std::size_t begin;
     float scale; ///< texels a pixel
 
-    /// The foremost layer of a texel, counted from raster position 0, that belongs to the cluster; -1 without
-    /// one.
-    int layerAt(ivec2 place, std::size_t& index, float& slope) const {
+    bool fits(float slope) const { return slope >= low && slope <= high; }
+    /// The foremost layer of a texel, counted from raster position 0, that belongs to the cluster; false
+    /// without one.
+    bool layerAt(ivec2 place, MapLayer& layer) const {
         const ivec2 texel = place - origin;
-        if (texel.x < 0 || texel.y < 0 || texel.x >= size.x || texel.y >= size.y) return -1;
-        index = begin + std::size_t(texel.y) * size.x + texel.x;
-        const vec4& head = map.heads[index];
-        for (int i = 0; i < kMapLayers; ++i)
-            if (head[i] >= low && head[i] <= high) {
-                slope = head[i];
-                return i;
+        if (texel.x < 0 || texel.y < 0 || texel.x >= size.x || texel.y >= size.y) return false;
+        const MapTexel found =
+            unpackTexel(map.texels[begin + std::size_t(texel.y) * size.x + texel.x], map.layout.code);
+        for (const MapLayer& candidate : found.layers)
+            if (fits(candidate.slope)) {
+                layer = candidate;
+                return true;
             }
-        return -1;
+        return false;
     }
+    ivec2 placeAt(vec2 x, vec2 uv, float slope) const { return ivec2(glm::floor((x - slope * uv) * scale)); }
 };
 
 Lookup lookUp(const LayerMap& map, const Cluster& cluster) {
     const float gap = 0.5f * map.layout.surfaceGap;
-    // The least slope to either side.
-    float spacing = float(kMapTexels) * map.layout.spreadPerPx *
-                    glm::max(glm::max(cluster.slopeMin, -cluster.slopeMax), 0.f);
-    Lookup lookup{
-        map, cluster.slopeMin - gap, cluster.slopeMax + gap, map.layout.size, kMapTexels * map.layout.origin,
-        0,   float(kMapTexels)};
-    for (int level = 1; level < map.layout.levels && spacing >= kLevelSpacing; ++level) {
-        lookup.begin += std::size_t(lookup.size.x) * lookup.size.y;
-        lookup.size /= 2;
-        lookup.origin /= 2;
-        lookup.scale *= 0.5f;
-        spacing *= 0.5f;
-    }
-    return lookup;
+    const int level = int(cluster.level);
+    return {map,
+            cluster.slopeMin - gap,
+            cluster.slopeMax + gap,
+            levelSize(map.layout, level),
+            kMapTexels * map.layout.origin / (1 << level),
+            levelBegin(map.layout, level),
+            float(kMapTexels) / float(1 << level)};
 }
 
 /// Follows the ray x - slope * uv from a few slopes of the cluster to where the map has that slope.
 float settle(const Lookup& lookup, const Cluster& cluster, vec2 x, vec2 uv) {
     const vec3 starts(0.5f * (cluster.slopeMin + cluster.slopeMax), cluster.slopeMax, cluster.slopeMin);
-    float slope = starts.x;
+    MapLayer layer;
     for (int start = 0; start < 3; ++start) {
-        slope = starts[start];
+        layer.slope = starts[start];
+        ivec2 place = lookup.placeAt(x, uv, layer.slope);
         bool met = false;
-        for (int step = 0; step < 3; ++step) {
-            std::size_t texel = 0;
-            if (lookup.layerAt(ivec2(glm::floor((x - slope * uv) * lookup.scale)), texel, slope) < 0) break;
+        for (int step = 0; step < kSettleSteps && lookup.layerAt(place, layer); ++step) {
             met = true;
+            const ivec2 next = lookup.placeAt(x, uv, layer.slope);
+            if (next == place) break;
+            place = next;
         }
         if (met) break;
     }
-    return slope;
+    return layer.slope;
 }
 
 /// The layer around a place, interpolated: radiance times coverage, coverage.
@@ -73,46 +71,52 @@ vec4 layerAround(const Lookup& lookup, vec2 place) {
     vec4 sum(0);
     for (int i = 0; i < 4; ++i) {
         const ivec2 step(i & 1, i >> 1);
-        std::size_t texel = 0;
-        float slope = 0;
-        const int layer = lookup.layerAt(ivec2(corner) + step, texel, slope);
-        if (layer < 0) continue;
-        const vec4& value = lookup.map.layers[texel * kMapLayers + layer];
+        MapLayer layer;
+        if (!lookup.layerAt(ivec2(corner) + step, layer)) continue;
         const float weight =
-            (step.x == 1 ? part.x : 1.f - part.x) * (step.y == 1 ? part.y : 1.f - part.y) * value.w;
-        sum += vec4(weight * vec3(value), weight);
+            (step.x == 1 ? part.x : 1.f - part.x) * (step.y == 1 ? part.y : 1.f - part.y) * layer.coverage;
+        sum += vec4(weight * layer.rgb, weight);
     }
     return sum;
 }
 
+/// Level of the map where lens positions are near enough to one another on a surface of this slope or more.
+float levelFor(float slope, const MapLayout& map) {
+    float spacing = float(kMapTexels) * map.spreadPerPx * glm::max(slope, 0.f);
+    int level = 0;
+    for (; level + 1 < map.levels && spacing >= kLevelSpacing; ++level) spacing *= 0.5f;
+    return float(level);
+}
+
 } // namespace
 
-std::vector<Cluster> clustersOf(const Bins& bins, std::span<const uint> bricks, const LensBox& lens,
-                                float lensScale, float reachPx) {
+Rung rungOf(const Bins& bins, std::span<const uint> bricks, const LensBox& lens, float lensScale,
+            const MapLayout& map) {
     const vec2 farthest = glm::max(glm::abs(lens.min), glm::abs(lens.max));
     const float lensRadius =
         glm::min(glm::sqrt(farthest.x * farthest.x + farthest.y * farthest.y), lensScale);
-    std::vector<Cluster> clusters;
+    Rung rung;
     bool fits = bricks.size() <= std::size_t(kMaxLoopIterations);
-    Cluster open{std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()};
+    vec2 open(std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity());
     const auto close = [&] {
-        const bool inFocus = glm::max(open.slopeMin, -open.slopeMax) < kLeastSlope;
-        const float reach = glm::max(-open.slopeMin, open.slopeMax) * lensRadius;
-        fits = fits && !inFocus && reach <= reachPx &&
-               (open.slopeMax - open.slopeMin) * lensRadius <= kWidestClusterPx &&
-               clusters.size() < kMaxClusters;
-        clusters.push_back(open);
+        const float least = glm::max(open.x, -open.y); // to either side
+        const float reach = glm::max(-open.x, open.y) * lensRadius;
+        rung.sharp = rung.sharp || least < kLeastSlope;
+        fits = fits && reach <= map.reachPx && (open.y - open.x) * lensRadius <= kWidestClusterPx &&
+               rung.clusters.size() < kMaxClusters;
+        rung.clusters.push_back({open.x, open.y, levelFor(least, map)});
     };
     for (std::size_t i = 0; i < bricks.size(); ++i) {
         const Brick& brick = bins.bricks[bricks[i]];
-        if (i > 0 && brick.slopeMin > open.slopeMax + bins.grid.surfaceGap) {
+        if (i > 0 && brick.slopeMin > open.y + bins.grid.surfaceGap) {
             close();
             open = {brick.slopeMin, brick.slopeMax};
         }
-        open = {glm::min(open.slopeMin, brick.slopeMin), glm::max(open.slopeMax, brick.slopeMax)};
+        open = {glm::min(open.x, brick.slopeMin), glm::max(open.y, brick.slopeMax)};
     }
     if (!bricks.empty()) close();
-    return fits ? clusters : std::vector<Cluster>{};
+    if (!fits || (rung.sharp && map.tooCoarse != 0)) rung.clusters.clear();
+    return rung;
 }
 
 std::vector<vec4> lensPoints(const OutputPattern& pattern) {
@@ -130,41 +134,37 @@ float spreadPerPx(const OutputPattern& pattern) {
     return pattern.lensScale * std::sqrt(area / float(pattern.outputsPerPixel()));
 }
 
-std::optional<vec3> throughLayers(const LayerMap& map, std::span<const Cluster> clusters, vec2 pixelCenter,
-                                  std::span<const vec4> points) {
-    vec3 mean(0);
-    for (const vec4& point : points) {
-        const vec2 uv(point.x, point.y);
-        vec3 rgb(0), last(0);
-        float transmittance = 1;
-        for (const Cluster& cluster : clusters) {
-            const Lookup lookup = lookUp(map, cluster);
-            const float slope = settle(lookup, cluster, pixelCenter, uv);
-            const vec4 layer = layerAround(lookup, (pixelCenter - slope * uv) * lookup.scale);
-            if (!(layer.w > 0)) continue;
-            rgb += transmittance * vec3(layer);
-            transmittance *= 1 - layer.w;
-            last = vec3(layer) / layer.w;
-            if (transmittance < kOpaque) break;
-        }
-        if (transmittance == 1.f) return {};
-        mean += rgb + transmittance * last;
+std::optional<vec3> lookThrough(const LayerMap& map, std::span<const Cluster> clusters, vec2 x, vec2 uv) {
+    vec3 rgb(0), last(0);
+    float transmittance = 1;
+    for (const Cluster& cluster : clusters) {
+        const Lookup lookup = lookUp(map, cluster);
+        const float slope = settle(lookup, cluster, x, uv);
+        const vec4 layer = layerAround(lookup, (x - slope * uv) * lookup.scale);
+        if (!(layer.w > 0)) continue;
+        rgb += transmittance * vec3(layer);
+        transmittance *= 1 - layer.w;
+        last = vec3(layer) / layer.w;
+        if (transmittance < kOpaque) break;
     }
-    return mean / float(points.size());
+    if (transmittance == 1.f) return {};
+    return rgb + transmittance * last;
 }
 
 void addMapShare(std::vector<float>& share, const Rect& frame, const Band& band, std::span<const uint> rungs,
-                 std::size_t groups) {
+                 std::span<const uint> leftPixels, std::size_t groups) {
     share.resize(frame.area());
     const std::size_t columns = std::size_t(band.region.width() + kTileSize - 1) / kTileSize;
     const std::size_t tiles = columns * (std::size_t(band.region.height() + kTileSize - 1) / kTileSize);
     for (int y = band.y0; y < band.y1; ++y)
         for (int x = frame.x0; x < frame.x1; ++x) {
-            const std::size_t row = std::size_t(y - band.region.y0) / kTileSize,
-                              column = std::size_t(x - band.region.x0) / kTileSize;
+            const ivec2 place(x - band.region.x0, y - band.region.y0), inTile = place % kTileSize;
+            const std::size_t tile = std::size_t(place.y / kTileSize) * columns + std::size_t(place.x / kTileSize);
+            const int pixel = inTile.y * kTileSize + inTile.x;
             float& sum = share[std::size_t(y - frame.y0) * frame.width() + (x - frame.x0)];
-            for (std::size_t list = row * columns + column; list < rungs.size(); list += tiles)
-                if (rungs[list] != 0) sum += 1 / float(groups);
+            for (std::size_t list = tile; list < rungs.size(); list += tiles)
+                if ((leftPixels[2 * list + std::size_t(pixel >> 5)] >> (pixel & 31) & 1u) == 0)
+                    sum += ((rungs[list] & kSharpRung) != 0 ? 0.5f : 1.f) / float(groups);
         }
 }
 

@@ -3,7 +3,9 @@
 // A list (a tile of pixels, a group of lens positions) sees clusters of surfaces, with gaps in slope between
 // them. Where each of them moves by a few pixels only from its nearest to its farthest part, an output looks
 // its way through them front to back: in each it follows its ray to where the map has a layer of that slope,
-// and composites what it finds. Its lens positions are the same in every pixel, and so free of noise.
+// and composites what it finds. Its lens positions are the same in every pixel, and so free of noise; what is
+// in focus is looked up at the outputs' own places in the pixel, the rest at its middle.
+
 #pragma once
 #include "reconstruct/layer_map.h"
 #include "reconstruct/output_pattern.h"
@@ -13,15 +15,17 @@
 
 namespace slant {
 
-/// A range of slopes, pixels per lens radius.
-struct Cluster {
-    float slopeMin, slopeMax;
+struct Rung {
+    std::vector<Cluster> clusters; ///< front to back; empty where outputs have to be searched for in the bins
+    bool sharp = false;            ///< one of them is in focus: each output counts at its own place in the pixel
+
+    /// As in the buffer of rungs, see kSharpRung.
+    uint code() const { return uint(clusters.size()) | (sharp && !clusters.empty() ? kSharpRung : 0); }
 };
 
-/// The clusters of a list whose outputs look through `lens`, a part of the disc of radius `lensScale`, front
-/// to back; empty where the outputs have to be searched for in the bins.
-std::vector<Cluster> clustersOf(const Bins& bins, std::span<const uint> bricks, const LensBox& lens,
-                                float lensScale, float reachPx);
+/// How the outputs of a list are made that look through `lens`, a part of the disc of radius `lensScale`.
+Rung rungOf(const Bins& bins, std::span<const uint> bricks, const LensBox& lens, float lensScale,
+            const MapLayout& map);
 
 /// Where the outputs of a pattern lie on the lens when they are taken from the map: the middles of their
 /// cells.
@@ -30,13 +34,12 @@ std::vector<vec4> lensPoints(const OutputPattern& pattern);
 /// See MapLayout::spreadPerPx.
 float spreadPerPx(const OutputPattern& pattern);
 
-/// Mean radiance of a pixel seen from `points`; nothing where one of them meets no surface.
-std::optional<vec3> throughLayers(const LayerMap& map, std::span<const Cluster> clusters, vec2 pixelCenter,
-                                  std::span<const vec4> points);
+/// What is seen at raster position x through lens position uv; nothing where no surface is met.
+std::optional<vec3> lookThrough(const LayerMap& map, std::span<const Cluster> clusters, vec2 x, vec2 uv);
 
-/// Adds to `share`, of the pixels of `frame` that a band finishes, what a chunk of its lists brings: of
-/// `groups` in all, those whose rung is not 0.
+/// Adds to `share`, of the pixels of `frame` that a band finishes, what a chunk of its lists brings: 1 for a
+/// list that the map serves, 1/2 if it is sharp, over `groups` in all.
 void addMapShare(std::vector<float>& share, const Rect& frame, const Band& band, std::span<const uint> rungs,
-                 std::size_t groups);
+                 std::span<const uint> leftPixels, std::size_t groups);
 
 } // namespace slant

@@ -1,10 +1,34 @@
-// An output: its place in pixel, lens and time. As in host/reconstruct/output_pattern.h.
+// An output: its place in pixel, lens and time; the first of these. As in host/reconstruct/output_pattern.h.
 #ifndef SLANT_LIB_OUTPUT_GLSL
 #define SLANT_LIB_OUTPUT_GLSL
+#include "lib/hash.glsl"
+#include "shared/reconstruct.h"
+
 struct Output {
     vec2 xy;
     vec2 uv;
     float t;
     float positionCode;
 };
+
+/// Nested uniform scramble of bit-reversed x (Laine and Karras 2011; constants of Burley 2020, listing 1).
+uint owenScramble(uint reversed, uint seed) {
+    uint x = reversed;
+    x ^= x * 0x3d20adeau;
+    x += seed;
+    x *= (seed >> 16) | 1u;
+    x ^= x * 0x05526c56u;
+    x ^= x * 0x53a22864u;
+    return bitfieldReverse(x);
+}
+
+uint seedOf(ivec2 pixel, uint seed) { return hash(uint(pixel.x) + hash(uint(pixel.y) + hash(seed))); }
+
+/// An output of a pixel, seen through the middle of the lens.
+Output placed(ivec2 pixel, uvec4 entry, uint pixelSeed) {
+    const uint qx = owenScramble(entry.x, hash(pixelSeed ^ 0xa511e9b3u)) >> 20;
+    const uint qy = owenScramble(entry.y, hash(pixelSeed ^ 0x63d83595u)) >> 20;
+    return Output(vec2(pixel) + (vec2(float(qx), float(qy)) + 0.5) * (1.0 / float(kSubpixels)), vec2(0.0), 0.0,
+                  float(qx * uint(kSubpixels) + qy));
+}
 #endif

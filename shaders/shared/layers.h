@@ -6,7 +6,7 @@
 SLANT_SHARED_BEGIN
 
 /// Layers that a texel of the map keeps, front to back.
-SLANT_SHARED_CONSTANT int kMapLayers = 3;
+SLANT_SHARED_CONSTANT int kMapLayers = 2;
 SLANT_SHARED_CONSTANT int kMapLevels = 6;
 /// Texels of level 0 along a pixel's side.
 SLANT_SHARED_CONSTANT int kMapTexels = 2;
@@ -17,18 +17,30 @@ SLANT_SHARED_CONSTANT float kMapTentPx = 0.5f;
 SLANT_SHARED_CONSTANT int kMapAlignPx = 16;
 /// Slope of a layer that a texel does not have.
 SLANT_SHARED_CONSTANT float kNoLayer = 1e30f;
+SLANT_SHARED_CONSTANT uint kNoSlopeCode = 65535u; // the same, packed
 
-/// An output is taken from the map where each cluster of surfaces, told apart by gaps in slope, keeps clear
-/// of focus by this slope, and moves less than this, in pixels, against itself over the lens, and where there
-/// are no more of them.
-SLANT_SHARED_CONSTANT float kLeastSlope = 0.5f;
+/// A list is taken from the map where each cluster of surfaces, told apart by gaps in slope, moves less than
+/// this, in pixels, against itself over the lens, and where there are no more of them.
 SLANT_SHARED_CONSTANT float kWidestClusterPx = 8.0f;
 SLANT_SHARED_CONSTANT uint kMaxClusters = 16u;
+/// A cluster with a smaller slope is in focus. Where samples lie closer than texels, the map would soften it, and
+/// does not serve; where it serves, each output is looked up at its own place in the pixel.
+SLANT_SHARED_CONSTANT float kLeastSlope = 0.5f;
+/// Rung of a list: the number of its clusters, 0 if the map does not serve it, with this bit where one of them
+/// is in focus.
+SLANT_SHARED_CONSTANT uint kSharpRung = 256u;
+/// Steps from a slope of a cluster to where the map has it.
+SLANT_SHARED_CONSTANT int kSettleSteps = 3;
 /// What shows through less than this is not looked for.
 SLANT_SHARED_CONSTANT float kOpaque = 0.00390625f;
 /// Lens positions of an output lie this far apart on a surface, in texels, before it is looked up a level
 /// higher.
 SLANT_SHARED_CONSTANT float kLevelSpacing = 3.0f;
+
+/// Packed slopes: steps from the least one; `perStep` steps are 1.
+struct SlopeCode {
+    float least, step, perStep;
+};
 
 /// The texels of the map: level 0 has kMapTexels a pixel along each side; each further level half as many,
 /// and is stored after the one before.
@@ -39,6 +51,13 @@ struct MapLayout {
     float surfaceGap;  // as GridLayout
     float reachPx;     // a surface that moves further over the lens may lie outside the map
     float spreadPerPx; // distance of lens positions on a surface that is blurred over a pixel to each side
+    SlopeCode code;
+    uint tooCoarse; // 1 where the texels would soften what is in focus
+};
+
+/// A range of slopes, pixels per lens radius, and the level of the map where it is looked up.
+struct Cluster {
+    float slopeMin, slopeMax, level;
 };
 
 /// layer_reduce: one level from the one below.
@@ -47,6 +66,7 @@ struct ReducePush {
     uint source; // its first texel
     uint target; // first texel of this level
     float surfaceGap;
+    SlopeCode code;
 };
 
 /// rungs, layers.

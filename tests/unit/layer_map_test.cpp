@@ -22,9 +22,9 @@ struct Fixture {
     LayerMap map;
     std::vector<uint> allBricks;
 
-    explicit Fixture(const std::vector<synthetic::Layer>& layers) {
-        const LightField field = synthetic::sample(layers, kFrame, 15, 16, 3);
-        bins = binSamples(field, kFrame, kSearchRadii * emptyCircleRadius(16));
+    explicit Fixture(const std::vector<synthetic::Layer>& layers, int spp = 16) {
+        const LightField field = synthetic::sample(layers, kFrame, 15, spp, 3);
+        bins = binSamples(field, kFrame, kSearchRadii * emptyCircleRadius(spp));
         map = makeLayerMap(bins, chooseMap(bins.grid, kFrame, mapReach(bins.grid, 1), 0.5f));
         allBricks.resize(bins.bricks.size());
         std::iota(allBricks.begin(), allBricks.end(), 0u);
@@ -35,8 +35,15 @@ struct Fixture {
         return levelBegin(map.layout, level) + std::size_t(texel.y) * levelSize(map.layout, level).x +
                texel.x;
     }
-    vec4 head(vec2 p, int level) const { return map.heads[texelAt(p, level)]; }
-    vec4 layer(vec2 p, int level, int i) const { return map.layers[texelAt(p, level) * kMapLayers + i]; }
+    MapTexel texel(vec2 p, int level) const {
+        return unpackTexel(map.texels[texelAt(p, level)], map.layout.code);
+    }
+    /// Of a list of all bricks.
+    Rung rung(const LensBox& lens, float reachPx) const {
+        MapLayout layout = map.layout;
+        layout.reachPx = reachPx;
+        return rungOf(bins, allBricks, lens, 1, layout);
+    }
 };
 
 TEST(LayerMap, texelsHoldWhatIsSeenAndWhatIsHidden) {
@@ -44,22 +51,46 @@ TEST(LayerMap, texelsHoldWhatIsSeenAndWhatIsHidden) {
     ASSERT_GE(f.map.layout.levels, 2);
     for (int level = 0; level < f.map.layout.levels; ++level) {
         // Seen past the edge from the other side of the lens: hidden at the centre, 4 + 9 px deep.
-        const vec4 edge = f.head(vec2(24, 24), level);
-        EXPECT_NEAR(edge.x, -4, 1e-4) << level;
-        EXPECT_NEAR(edge.y, 9, 1e-4) << level;
-        EXPECT_EQ(edge.w, 2) << level;
-        const vec4 front = f.layer(vec2(24, 24), level, 0), back = f.layer(vec2(24, 24), level, 1);
-        EXPECT_NEAR(front.y, 0.5f, 1e-5) << level;
-        EXPECT_NEAR(front.w, 1, 1e-5) << level;
-        EXPECT_NEAR(back.x, 24, 2 << level);
+        const MapTexel edge = f.texel(vec2(24, 24), level);
+        ASSERT_EQ(edge.count, 2) << level;
+        EXPECT_NEAR(edge.layers[0].slope, -4, 1e-3) << level;
+        EXPECT_NEAR(edge.layers[0].rgb.y, 0.5f, 1e-3) << level;
+        EXPECT_EQ(edge.layers[0].coverage, 1) << level;
+        EXPECT_NEAR(edge.layers[1].slope, 9, 1e-3) << level;
+        EXPECT_NEAR(edge.layers[1].rgb.x, 24, 2 << level);
 
-        const vec4 open = f.head(vec2(52, 24), level);
-        EXPECT_NEAR(open.x, 9, 1e-4) << level;
-        EXPECT_EQ(open.y, kNoLayer) << level;
-        EXPECT_EQ(open.w, 1) << level;
-        EXPECT_EQ(f.layer(vec2(52, 24), level, 0).w, 1) << level;
-        EXPECT_EQ(f.layer(vec2(52, 24), level, 1), vec4(0)) << level;
+        const MapTexel open = f.texel(vec2(52, 24), level);
+        ASSERT_EQ(open.count, 1) << level;
+        EXPECT_NEAR(open.layers[0].slope, 9, 1e-3) << level;
+        EXPECT_EQ(open.layers[0].coverage, 1) << level;
     }
+}
+
+TEST(LayerMap, packingKeepsWhatCounts) {
+    GridLayout grid{};
+    grid.slopeMin = -40;
+    grid.bucketCount = 100;
+    grid.invBucket = 1;
+    const SlopeCode code = slopeCode(grid);
+    for (const float bright : {1e-20f, 0.37f, 1.f, 65000.f, 3e30f})
+        for (const float slope : {-40.f, -1.3f, 0.f, 59.9f}) {
+            MapTexel texel;
+            texel.count = 2;
+            texel.layers[0] = {bright * vec3(1, 0.5f, 0.01f), 1, slope};
+            texel.layers[1] = {vec3(0), 0.25f, slope};
+            const MapTexel back = unpackTexel(packTexel(texel, code), code);
+            ASSERT_EQ(back.count, 2);
+            for (int i = 0; i < 3; ++i)
+                EXPECT_NEAR(back.layers[0].rgb[i], texel.layers[0].rgb[i], bright / 1024);
+            EXPECT_EQ(back.layers[0].coverage, 1);
+            EXPECT_EQ(back.layers[1].rgb, vec3(0));
+            EXPECT_NEAR(back.layers[1].coverage, 0.25f, 0.002);
+            EXPECT_NEAR(back.layers[1].slope, slope, code.step);
+        }
+    EXPECT_EQ(unpackTexel(packTexel(MapTexel{}, code), code).count, 0);
+    MapTexel faint;
+    faint.layers[0] = {vec3(1), 1e-4f, 2};
+    EXPECT_GT(unpackTexel(packTexel(faint, code), code).layers[0].coverage, 0) << "lest means divide by 0";
 }
 
 TEST(LayerMap, coverageOfARimIsItsArea) {
@@ -67,41 +98,44 @@ TEST(LayerMap, coverageOfARimIsItsArea) {
     double covered = 0; // the columns around the edge, 8 px wide
     for (float y = 8.25f; y < 40; y += 0.5f)
         for (float x = 28.25f; x < 36; x += 0.5f) {
-            const vec4 head = f.head(vec2(x, y), 0);
-            if (head.x < 0) covered += f.layer(vec2(x, y), 0, 0).w * 0.25;
+            const MapLayer front = f.texel(vec2(x, y), 0).layers[0];
+            if (front.slope < 0) covered += front.coverage * 0.25;
         }
     EXPECT_NEAR(covered / 32, 4, 0.1);
 }
 
-TEST(Layers, clustersAreToldApartAndThoseInFocusAreNotServed) {
+TEST(Layers, clustersAreToldApart) {
     const Fixture f(halfPlane());
     const LensBox lens{vec2(0.5f), vec2(0.7f)};
-    const std::vector<Cluster> clusters = clustersOf(f.bins, f.allBricks, lens, 1, 20);
-    ASSERT_EQ(clusters.size(), 2u);
-    EXPECT_NEAR(clusters[0].slopeMin, -4, 1e-4);
-    EXPECT_NEAR(clusters[0].slopeMax, -4, 1e-4);
-    EXPECT_NEAR(clusters[1].slopeMin, 9, 1e-4);
-    EXPECT_TRUE(clustersOf(f.bins, f.allBricks, lens, 1, 8).empty()) << "reaches further than the map";
-    EXPECT_FALSE(clustersOf(f.bins, f.allBricks, {vec2(0), vec2(0.5f)}, 1, 8).empty());
-    EXPECT_TRUE(clustersOf(f.bins, {}, lens, 1, 20).empty());
+    const Rung rung = f.rung(lens, 20);
+    ASSERT_EQ(rung.clusters.size(), 2u);
+    EXPECT_NEAR(rung.clusters[0].slopeMin, -4, 1e-4);
+    EXPECT_NEAR(rung.clusters[0].slopeMax, -4, 1e-4);
+    EXPECT_NEAR(rung.clusters[1].slopeMin, 9, 1e-4);
+    EXPECT_FALSE(rung.sharp);
+    EXPECT_TRUE(f.rung(lens, 8).clusters.empty()) << "reaches further than the map";
+    EXPECT_FALSE(f.rung({vec2(0), vec2(0.5f)}, 8).clusters.empty());
+    EXPECT_TRUE(rungOf(f.bins, {}, lens, 1, f.map.layout).clusters.empty());
+}
 
+TEST(Layers, whatIsInFocusIsServedWhereSamplesAreNoFinerThanTexels) {
     std::vector<synthetic::Layer> focused = halfPlane();
     focused[0].slope = 0.3f;
-    const Fixture g(focused);
-    EXPECT_TRUE(clustersOf(g.bins, g.allBricks, lens, 1, 20).empty());
+    const Fixture coarse(focused, 9);
+    const Rung rung = coarse.rung({vec2(0.5f), vec2(0.7f)}, 20);
+    EXPECT_EQ(rung.clusters.size(), 2u);
+    EXPECT_TRUE(rung.sharp);
+    EXPECT_EQ(rung.code(), 2u | kSharpRung);
+    EXPECT_TRUE(Fixture(focused, 16).rung({vec2(0.5f), vec2(0.7f)}, 20).clusters.empty());
 }
 
 TEST(Layers, raysFindTheirSurfaces) {
     const Fixture f(halfPlane());
-    const std::vector<Cluster> clusters = clustersOf(f.bins, f.allBricks, {vec2(-1), vec2(1)}, 1, 20);
-    const auto look = [&](vec2 x, vec2 uv) {
-        const vec4 point(uv, 0, 0);
-        return throughLayers(f.map, clusters, x, {&point, 1}).value();
-    };
+    const std::vector<Cluster> clusters = f.rung({vec2(-1), vec2(1)}, 20).clusters;
     for (const float u : {-0.7f, -0.2f, 0.f, 0.4f, 0.8f})
         for (float x = 8.5f; x < 56; ++x) {
             const float front = x + 4 * u, back = x - 9 * u; // pinhole positions on either layer
-            const vec3 rgb = look({x, 24.5f}, {u, 0.3f});
+            const vec3 rgb = lookThrough(f.map, clusters, {x, 24.5f}, {u, 0.3f}).value();
             if (front < 31) {
                 EXPECT_NEAR(rgb.y, 0.5f, 1e-3) << x << ", " << u;
             }
@@ -113,9 +147,8 @@ TEST(Layers, raysFindTheirSurfaces) {
 
 TEST(Layers, whereTheMapHasNothingThereIsNoAnswer) {
     const Fixture f(halfPlane());
-    const Cluster elsewhere{20, 21};
-    const vec4 point(0.1f, 0.1f, 0, 0);
-    EXPECT_FALSE(throughLayers(f.map, {&elsewhere, 1}, vec2(20, 20), {&point, 1}));
+    const Cluster elsewhere{20, 21, 0};
+    EXPECT_FALSE(lookThrough(f.map, {&elsewhere, 1}, vec2(20, 20), vec2(0.1f)));
 }
 
 } // namespace

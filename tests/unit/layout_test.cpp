@@ -49,7 +49,7 @@ const Layout kLayouts[] = {
     STRUCT(WindowPush, MEMBER(WindowPush, search), MEMBER(WindowPush, outputs), MEMBER(WindowPush, lensCells),
            MEMBER(WindowPush, lensScale), MEMBER(WindowPush, firstOutput), MEMBER(WindowPush, count)),
     STRUCT(ReducePush, MEMBER(ReducePush, size), MEMBER(ReducePush, source), MEMBER(ReducePush, target),
-           MEMBER(ReducePush, surfaceGap)),
+           MEMBER(ReducePush, surfaceGap), MEMBER(ReducePush, code)),
     STRUCT(LayerPush, MEMBER(LayerPush, outputs), MEMBER(LayerPush, map), MEMBER(LayerPush, firstGroup),
            MEMBER(LayerPush, count), MEMBER(LayerPush, groupBits), MEMBER(LayerPush, lensScale)),
     STRUCT(LowerBoundPush, MEMBER(LowerBoundPush, keyCount), MEMBER(LowerBoundPush, count)),
