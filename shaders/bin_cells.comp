@@ -1,5 +1,6 @@
 #version 460
-// The first record of each cell of each brick: where its key would stand among the sorted keys.
+// The first record of each cell of each brick: where its key would stand among the sorted keys. One invocation is a
+// row of cells.
 #extension GL_GOOGLE_include_directive : require
 #include "lib/invocation.glsl"
 #include "shared/reconstruct.h"
@@ -14,11 +15,15 @@ uint keyAt(uint i) { return texelFetch(keys, int(i)).x; }
 #include "lib/lower_bound.glsl"
 
 void main() {
-    const uint i = linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
-    if (i >= push.count) return;
-    const uint cells = uint(push.grid.cellsPerBrick * push.grid.cellsPerBrick);
-    const uint brick = i / cells;
-    const uint key = brick < push.brickTotal ? texelFetch(brickKeys, int(brick)).x * cells + (i - brick * cells) : 0u;
-    const uint start = brick < push.brickTotal ? lowerBound(key, push.grid.sampleCount) : push.grid.sampleCount;
-    imageStore(cellStart, int(i), uvec4(start));
+    const uint row = linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
+    const uint side = uint(push.grid.cellsPerBrick), records = push.grid.sampleCount, brick = row / side;
+    if (row == 0u) imageStore(cellStart, int(push.brickTotal * side * side), uvec4(records));
+    if (brick >= push.brickTotal) return;
+    const uint key = texelFetch(brickKeys, int(brick)).x * side * side + (row - brick * side) * side;
+    uint first = lowerBound(key, 0u, records);
+    const uint end = lowerBound(key + side, first, records - first);
+    for (uint column = 0u; column < side; ++column) {
+        first = lowerBound(key + column, first, end - first);
+        imageStore(cellStart, int(row * side + column), uvec4(first));
+    }
 }

@@ -19,7 +19,7 @@ uint keyAt(uint i) { return texelFetch(offsets, int(i)).x; }
 void main() {
     const uint i = linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
     if (i >= push.count) return;
-    const uint pair = lowerBound(i + 1u, push.groupCount * push.brickTotal + 1u) - 1u;
+    const uint pair = lowerBound(i + 1u, 0u, push.groupCount * push.brickTotal + 1u) - 1u;
     const uint group = pair / push.brickTotal, brick = pair - group * push.brickTotal;
     const vec4 box = texelFetch(lensBoxes, int(push.firstGroup + group));
     const ivec4 range =

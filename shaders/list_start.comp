@@ -14,5 +14,5 @@ uint keyAt(uint i) { return texelFetch(lists, int(i)).x; }
 
 void main() {
     const uint i = linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
-    if (i < push.count) imageStore(listStart, int(i), uvec4(lowerBound(i, push.keyCount)));
+    if (i < push.count) imageStore(listStart, int(i), uvec4(lowerBound(i, 0u, push.keyCount)));
 }
