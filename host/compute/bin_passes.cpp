@@ -94,8 +94,9 @@ DeviceBins BinPasses::run(CommandList& commands, const LightField& field, const 
     push.count = push.brickTotal;
     commands.dispatch(bricks_, {brickKeys, bounds, bricks, cellBases}, push, bricks_.gridFor(push.count));
     Buffer cellStart(device_, TexelFormat::r32ui, push.brickTotal * cellsPerBrick + 1);
-    commands.dispatch(cells_, {sorted.keys, brickKeys, cellStart}, push,
-                      cells_.gridFor(std::max<std::uint64_t>(1, push.brickTotal * std::uint64_t(grid.cellsPerBrick))));
+    commands.dispatch(
+        cells_, {sorted.keys, brickKeys, cellStart}, push,
+        cells_.gridFor(std::max<std::uint64_t>(1, push.brickTotal * std::uint64_t(grid.cellsPerBrick))));
     commands.run();
     return {grid,
             push.brickTotal,

@@ -75,7 +75,8 @@ private:
         std::uint64_t outputs = 0; ///< in all
     };
     /// Takes what the layer map serves of a chunk, if there is one.
-    Left takeFromMap(const Band& band, const DeviceLists& lists, const OutputPush& push, const Buffer& dense) {
+    Left takeFromMap(const Band& band, const DeviceLists& lists, const OutputPush& push,
+                     const Buffer& dense) {
         std::vector<uint> rungs(lists.start.texels() - 1), pixels(2 * rungs.size(), ~0u);
         Left left{{}, Buffer(run_.device, TexelFormat::r32ui, pixels.size())};
         if (layerPasses_) {
@@ -99,9 +100,10 @@ private:
             const ivec2 place(tile % tiles.x, tile / tiles.x);
             left.lists.emplace_back(place.x, place.y, list / uint(tiles.x * tiles.y), list);
             const ivec2 size = glm::min(push.outputs.regionSize - kTileSize * place, ivec2(kTileSize));
-            left.outputs += rungs[list] == 0
-                                ? std::uint64_t(size.x * size.y)
-                                : std::uint64_t(std::popcount(pixels[2 * list]) + std::popcount(pixels[2 * list + 1]));
+            left.outputs +=
+                rungs[list] == 0
+                    ? std::uint64_t(size.x * size.y)
+                    : std::uint64_t(std::popcount(pixels[2 * list]) + std::popcount(pixels[2 * list + 1]));
         }
         left.outputs <<= push.groupBits;
         return left;
@@ -116,8 +118,8 @@ private:
             run_.observe("lists.start", lists.start);
             run_.observe("lists.bricks", lists.ids);
             const Left left = takeFromMap(band, lists, push, dense);
-            const OutputPasses::Result result =
-                outputPasses_.run(run_.commands, listPasses_, bins_, lists, left.lists, left.pixels, push, dense);
+            const OutputPasses::Result result = outputPasses_.run(run_.commands, listPasses_, bins_, lists,
+                                                                  left.lists, left.pixels, push, dense);
             if (!result.overflowed.empty()) finishOnCpu(band, push, result.overflowed, dense);
             report.layered += samples - left.outputs;
             report.visibility += result.visibility;

@@ -44,8 +44,7 @@ void LayerPasses::makeMap(CommandList& commands, const DeviceBins& bins, const M
     for (int level = 1; level < layout_.levels; ++level) {
         const ivec2 size = levelSize(layout_, level);
         const ReducePush reduce{levelSize(layout_, level - 1), uint(levelBegin(layout_, level - 1)),
-                                uint(levelBegin(layout_, level)), layout_.surfaceGap,
-                                layout_.code};
+                                uint(levelBegin(layout_, level)), layout_.surfaceGap, layout_.code};
         commands.dispatch(reduce_, {texels_}, reduce,
                           reduce_.gridOver(std::uint32_t(size.x), std::uint32_t(size.y)));
     }
@@ -53,7 +52,8 @@ void LayerPasses::makeMap(CommandList& commands, const DeviceBins& bins, const M
 }
 
 void LayerPasses::record(CommandList& commands, const ListPasses& listPasses, const DeviceLists& lists,
-                         const Buffer& pattern, const OutputPush& outputs, const Buffer& rungs, const Buffer& leftPixels, const Buffer& dense) {
+                         const Buffer& pattern, const OutputPush& outputs, const Buffer& rungs,
+                         const Buffer& leftPixels, const Buffer& dense) {
     LayerPush push{};
     push.outputs = outputs.outputs;
     push.map = layout_;
@@ -63,9 +63,11 @@ void LayerPasses::record(CommandList& commands, const ListPasses& listPasses, co
     push.lensScale = outputs.lensScale;
     if (clusters_.texels() < lists.bricks.texels())
         clusters_ = Buffer(device_, TexelFormat::rgba32f, lists.bricks.texels());
-    commands.dispatch(rungs_, {lists.start, lists.bricks, listPasses.lensBoxes(), rungs, leftPixels, clusters_}, push,
+    commands.dispatch(rungs_,
+                      {lists.start, lists.bricks, listPasses.lensBoxes(), rungs, leftPixels, clusters_}, push,
                       rungs_.gridFor(push.count));
-    commands.dispatch(layers_, {lists.start, clusters_, texels_, lensPoints_, pattern, rungs, leftPixels, dense}, push,
+    commands.dispatch(layers_,
+                      {lists.start, clusters_, texels_, lensPoints_, pattern, rungs, leftPixels, dense}, push,
                       {std::uint32_t(outputs.outputs.tileCount.x), std::uint32_t(outputs.outputs.tileCount.y),
                        outputs.groupCount});
 }

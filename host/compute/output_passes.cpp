@@ -29,9 +29,8 @@ OutputPasses::Counters OutputPasses::counters() const {
 }
 
 OutputPasses::Result OutputPasses::run(CommandList& commands, ListPasses& listPasses, const DeviceBins& bins,
-                                       const DeviceLists& lists, std::span<const uvec4> left, const Buffer& leftPixels,
-                                       OutputPush push,
-                                       const Buffer& dense) {
+                                       const DeviceLists& lists, std::span<const uvec4> left,
+                                       const Buffer& leftPixels, OutputPush push, const Buffer& dense) {
     reserve(dense.texels());
     commands.fill(counters_, 0);
     push.radiusPx = bins.grid.radiusPx;

@@ -188,7 +188,8 @@ void reduceLevel(LayerMap& map, int level) {
                 Children children;
                 for (std::size_t i = 0; i < 4; ++i) {
                     const std::size_t column = 2 * std::size_t(x) + i % 2, row = 2 * std::size_t(y) + i / 2;
-                    const MapTexel child = unpackTexel(map.texels[source + row * below.x + column], layout.code);
+                    const MapTexel child =
+                        unpackTexel(map.texels[source + row * below.x + column], layout.code);
                     std::copy(child.layers.begin(), child.layers.end(), &children[i * kMapLayers]);
                 }
                 map.texels[target + std::size_t(y) * size.x + x] =

@@ -2,9 +2,9 @@
 //
 // The light field of a scene that keeps still depends on pinhole position and slope alone, up to what hides
 // what. So the samples around a pinhole position are told apart into surfaces once, for all outputs; the two
-// foremost keep their mean slope and radiance and how much of the texel they cover. Through any lens position the
-// surfaces are then found by lookups. Higher levels are means over 2x2 texels, for lens positions that lie
-// far apart.
+// foremost keep their mean slope and radiance and how much of the texel they cover. Through any lens position
+// the surfaces are then found by lookups. Higher levels are means over 2x2 texels, for lens positions that
+// lie far apart.
 #pragma once
 #include "reconstruct/bins.h"
 #include "reconstruct/candidates.h"

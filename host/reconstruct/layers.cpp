@@ -159,7 +159,8 @@ void addMapShare(std::vector<float>& share, const Rect& frame, const Band& band,
     for (int y = band.y0; y < band.y1; ++y)
         for (int x = frame.x0; x < frame.x1; ++x) {
             const ivec2 place(x - band.region.x0, y - band.region.y0), inTile = place % kTileSize;
-            const std::size_t tile = std::size_t(place.y / kTileSize) * columns + std::size_t(place.x / kTileSize);
+            const std::size_t tile =
+                std::size_t(place.y / kTileSize) * columns + std::size_t(place.x / kTileSize);
             const int pixel = inTile.y * kTileSize + inTile.x;
             float& sum = share[std::size_t(y - frame.y0) * frame.width() + (x - frame.x0)];
             for (std::size_t list = tile; list < rungs.size(); list += tiles)

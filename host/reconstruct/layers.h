@@ -17,7 +17,7 @@ namespace slant {
 
 struct Rung {
     std::vector<Cluster> clusters; ///< front to back; empty where outputs have to be searched for in the bins
-    bool sharp = false;            ///< one of them is in focus: each output counts at its own place in the pixel
+    bool sharp = false; ///< one of them is in focus: each output counts at its own place in the pixel
 
     /// As in the buffer of rungs, see kSharpRung.
     uint code() const { return uint(clusters.size()) | (sharp && !clusters.empty() ? kSharpRung : 0); }

@@ -20,9 +20,9 @@ struct MapTexel {
     int count = 0;
 };
 
-/// Two words a layer: 11, 11 and 10 bits of red, green and blue; their common exponent, coverage in 1/255 (at least 1), and
-/// slope as a code. Colours are off by at most 1/2048 of the largest (blue: 1/1024), slopes by half
-/// a step.
+/// Two words a layer: 11, 11 and 10 bits of red, green and blue; their common exponent, coverage in 1/255 (at
+/// least 1), and slope as a code. Colours are off by at most 1/2048 of the largest (blue: 1/1024), slopes by
+/// half a step.
 glm::uvec4 packTexel(const MapTexel& texel, const SlopeCode& code);
 MapTexel unpackTexel(const glm::uvec4& words, const SlopeCode& code);
 /// Of the second word of a layer; kNoLayer without one.

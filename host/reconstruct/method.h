@@ -73,7 +73,7 @@ struct ReconstructReport {
     std::uint64_t overflowed =
         0; ///< those that met the candidate limit of the compute path and were done on the CPU
     std::uint64_t emptyPixels = 0; ///< pixels that no sample reached
-    std::vector<float> mapShare; ///< of each pixel of the frame, see addMapShare
+    std::vector<float> mapShare;   ///< of each pixel of the frame, see addMapShare
     std::vector<StageStats> stages;
 
     /// The stage of that name, made at the end of the list if there is none.

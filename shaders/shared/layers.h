@@ -23,11 +23,11 @@ SLANT_SHARED_CONSTANT uint kNoSlopeCode = 65535u; // the same, packed
 /// this, in pixels, against itself over the lens, and where there are no more of them.
 SLANT_SHARED_CONSTANT float kWidestClusterPx = 8.0f;
 SLANT_SHARED_CONSTANT uint kMaxClusters = 16u;
-/// A cluster with a smaller slope is in focus. Where samples lie closer than texels, the map would soften it, and
-/// does not serve; where it serves, each output is looked up at its own place in the pixel.
+/// A cluster with a smaller slope is in focus. Where samples lie closer than texels, the map would soften it,
+/// and does not serve; where it serves, each output is looked up at its own place in the pixel.
 SLANT_SHARED_CONSTANT float kLeastSlope = 0.5f;
-/// Rung of a list: the number of its clusters, 0 if the map does not serve it, with this bit where one of them
-/// is in focus.
+/// Rung of a list: the number of its clusters, 0 if the map does not serve it, with this bit where one of
+/// them is in focus.
 SLANT_SHARED_CONSTANT uint kSharpRung = 256u;
 /// Steps from a slope of a cluster to where the map has it.
 SLANT_SHARED_CONSTANT int kSettleSteps = 3;
