@@ -3,8 +3,8 @@
 namespace slant {
 
 LayerPasses::LayerPasses(Device& device, const OutputPattern& pattern)
-    : device_(device), pattern_(pattern), map_(device, "layer_map"), reduce_(device, "layer_reduce"),
-      rungs_(device, "rungs"), layers_(device, "layers"), texels_(device, TexelFormat::rgba32ui, 0),
+    : device_(device), map_(device, "layer_map"), reduce_(device, "layer_reduce"), rungs_(device, "rungs"),
+      layers_(device, "layers"), texels_(device, TexelFormat::rgba32ui, 0),
       lensPoints_(device, TexelFormat::rgba32f, pattern.entries.size()),
       clusters_(device, TexelFormat::rgba32f, 0) {
     lensPoints_.upload(lensPoints(pattern));

@@ -30,7 +30,6 @@ public:
 
 private:
     Device& device_;
-    const OutputPattern& pattern_;
     MapLayout layout_{};
     Pass map_, reduce_, rungs_, layers_;
     Buffer texels_, lensPoints_, clusters_;
