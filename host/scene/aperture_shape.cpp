@@ -34,18 +34,22 @@ std::vector<glm::dvec2> corners(int count, double radius, double otherRadius, do
 template <typename Value>
 std::vector<std::uint8_t> weightsOf(const Value& value) {
     std::vector<double> means;
-    for (int sector = 0; sector < kSectors; ++sector)
+    for (int sector = 0; sector < kSectors; ++sector) {
+        std::array<glm::dvec2, kLooks> directions;
+        for (int i = 0; i < kLooks; ++i) {
+            const double angle = 2 * std::numbers::pi * (sector + (i + 0.5) / kLooks) / kSectors;
+            directions[std::size_t(i)] = {std::cos(angle), std::sin(angle)};
+        }
         for (int ring = 0; ring < kRings; ++ring) {
             double sum = 0, area = 0;
-            for (int i = 0; i < kLooks * kLooks; ++i) {
-                const double turn = (sector + (i % kLooks + 0.5) / kLooks) / kSectors;
-                const double radius = (ring + (i / kLooks + 0.5) / kLooks) / kRings;
-                const double angle = 2 * std::numbers::pi * turn;
-                sum += radius * value(radius * glm::dvec2(std::cos(angle), std::sin(angle)));
-                area += radius;
+            for (int i = 0; i < kLooks; ++i) {
+                const double radius = (ring + (i + 0.5) / kLooks) / kRings;
+                for (const glm::dvec2& direction : directions) sum += radius * value(radius * direction);
+                area += radius * kLooks;
             }
             means.push_back(sum / area);
         }
+    }
     const double greatest = *std::max_element(means.begin(), means.end());
     std::vector<std::uint8_t> weights;
     if (!(greatest > 0)) return weights;

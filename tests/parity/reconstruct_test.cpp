@@ -102,15 +102,15 @@ TEST_F(ReconstructParity, everyAperture) {
 }
 
 TEST_F(ReconstructParity, everyShapeOfAperture) {
-    const LightField field = makeField({0, 0, 31, 23}, 3);
+    const LightField field = makeField({0, 0, 21, 13}, 3);
     Image ring({0, 0, 9, 9}, {"Y"});
     for (std::size_t i = 0; i < ring.pixels.size(); ++i) ring.pixels[i] = i == 40 ? 0.f : float(i % 5);
     std::vector<ApertureShape> shapes{apertureOfImage(ring, {})};
-    for (const char* name : {"disc", "gaussian", "square", "star", "polygon 7 12"})
+    for (const char* name : {"disc", "star", "polygon 7 12"})
         shapes.push_back(*parseAperture(name, {}));
     for (const ApertureShape& shape : shapes)
         for (const Method method : {Method::window, Method::full, Method::ladder}) {
-            ReconstructOptions options = optionsOf(method, 64);
+            ReconstructOptions options = optionsOf(method, 32);
             options.aperture = Aperture(shape);
             options.lensScale = 0.9f;
             EXPECT_EQ(runBoth(field, options).report.emptyPixels, 0u);
