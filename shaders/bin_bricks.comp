@@ -24,7 +24,9 @@ void main() {
     imageStore(cellBases, int(i), uvec4(i * side * side - corner.y * side - corner.x));
     const uvec2 first = corner + uvec2(texelFetch(bounds, word + 2).x, texelFetch(bounds, word + 3).x);
     const uvec2 last = corner + uvec2(~texelFetch(bounds, word + 4).x, ~texelFetch(bounds, word + 5).x);
+    const uint radius = uint(ceil(kRadiusSteps / uintBitsToFloat(texelFetch(bounds, word + 6).x)));
+    const uvec2 extent = last - first;
     imageStore(bricks, int(i),
-               uvec4(first.x | first.y << 16, last.x | last.y << 16, floatBits(texelFetch(bounds, word).x),
+               uvec4(first.x | first.y << 16, extent.x | extent.y << 6 | radius << 12, floatBits(texelFetch(bounds, word).x),
                      floatBits(~texelFetch(bounds, word + 1).x)));
 }

@@ -25,9 +25,10 @@ void main() {
     const int index = int(texelFetch(indices, int(i)).x);
     const vec3 position = texelFetch(samplePositions, index).xyz;
     const int block = blockOf(push.occlusion, position.xy, position.z, push.grid.origin);
-    const float weight = visibilityWeight(push.occlusion, texelFetch(stopped, block).x);
+    const vec4 radiance = texelFetch(sampleRadiances, index);
+    const float weight = visibilityWeight(push.occlusion, texelFetch(stopped, block).x, radiance.w);
     imageStore(positions, int(i), vec4(position, weight));
-    imageStore(radiances, int(i), texelFetch(sampleRadiances, index));
+    imageStore(radiances, int(i), radiance);
     const uint cells = uint(push.grid.cellsPerBrick * push.grid.cellsPerBrick);
     const uint brick = texelFetch(keys, int(i)).x / cells;
     const bool begins = i == 0u || texelFetch(keys, int(i) - 1).x / cells != brick;

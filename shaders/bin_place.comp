@@ -1,5 +1,5 @@
 #version 460
-// Pinhole position, radiance and sort key of each uploaded sample.
+// Pinhole position, radiance, own radius and sort key of each uploaded sample.
 #extension GL_GOOGLE_include_directive : require
 #include "lib/grid.glsl"
 #include "lib/invocation.glsl"
@@ -10,7 +10,11 @@ layout(set = 0, binding = 1, rgba32f) uniform writeonly imageBuffer positions;
 layout(set = 0, binding = 2, rgba32f) uniform writeonly imageBuffer radiances;
 layout(set = 0, binding = 3, r32ui) uniform writeonly uimageBuffer keys;
 layout(set = 0, binding = 4, r32ui) uniform writeonly uimageBuffer indices;
+layout(set = 0, binding = 5) uniform utextureBuffer pixelSums;
 layout(push_constant) uniform Push { BinPush push; };
+
+uint sumAt(uint i) { return texelFetch(pixelSums, int(i)).x; }
+#include "lib/density.glsl"
 
 void main() {
     const uint i = linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
@@ -23,7 +27,8 @@ void main() {
     const int index = int(push.firstSample + i);
     const bool kept = reaches(p, slope, vec2(push.regionMin), vec2(push.regionMax), push.marginPx);
     imageStore(positions, index, vec4(p, slope, 0.0));
-    imageStore(radiances, index, vec4(radiance.rgb, depth.w));
+    const float narrowing = kept ? narrowingAt(push.density, p, slope, push.grid.radiusPx) : 1.0;
+    imageStore(radiances, index, vec4(radiance.rgb, narrowing));
     imageStore(keys, index, uvec4(kept ? sortKey(push.grid, p, slope) : kNotBinned));
     imageStore(indices, index, uvec4(uint(index)));
 }

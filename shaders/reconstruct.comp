@@ -33,7 +33,7 @@ void visit(Candidate candidate, inout Sweep sweep) {
         return;
     }
     const float weight = candidate.weight * (1.0 - sqrt(candidate.distance2) * sweep.invRadius);
-    sweep.sum += weight * radianceAt(candidate.record);
+    sweep.sum += weight * candidate.radiance.rgb;
     sweep.weightSum += weight;
     sweep.slopeMax = max(sweep.slopeMax, candidate.slope);
     addPoint(sweep.hull, candidate.offset);
@@ -73,7 +73,7 @@ void main() {
     const Output o = outputAt(outputs.regionOrigin + position, index, texelFetch(pattern, index), push.lensCells,
                               push.lensScale, outputs.seed);
     Sweep sweep = Sweep(true, 1.0 / grid.radiusPx, grid.surfaceGap, vec3(0.0), 0.0, -kInfinity, noHull());
-    const bool complete = forEachCandidate(grid, o, grid.radiusPx, texelFetch(listStart, int(list)).x,
+    const bool complete = forEachCandidate(grid, o, grid.radiusPx, kAnyNarrowing, texelFetch(listStart, int(list)).x,
                                            texelFetch(listStart, int(list) + 1).x, sweep);
     const uint slot = (k * uint(outputs.regionSize.y) + uint(position.y)) * uint(outputs.regionSize.x) + uint(position.x);
     if (!complete) {

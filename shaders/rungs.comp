@@ -49,9 +49,11 @@ void main() {
     const float lensRadius = min(sqrt(farthest.x * farthest.x + farthest.y * farthest.y), push.lensScale);
     const uint begin = texelFetch(listStart, int(list)).x, end = texelFetch(listStart, int(list) + 1).x;
     Clusters found = Clusters(0u, true, false, vec2(kInfinity, -kInfinity));
+    float finest = 1.0; // own radius, over R
     const uint last = min(end, begin + uint(kMaxLoopIterations));
     for (uint entry = begin; entry < last; ++entry) {
         const Brick brick = brickOf(texelFetch(listBricks, int(entry)));
+        finest = min(finest, widestRadius(brick));
         if (entry > begin && brick.slopeMin > found.open.y + push.map.surfaceGap) {
             close(found, lensRadius, begin);
             found.open = vec2(brick.slopeMin, brick.slopeMax);
@@ -59,7 +61,7 @@ void main() {
         found.open = vec2(min(found.open.x, brick.slopeMin), max(found.open.y, brick.slopeMax));
     }
     if (end > begin) close(found, lensRadius, begin);
-    const bool served = found.count > 0u && found.fits && last == end && !(found.sharp && push.map.tooCoarse != 0u);
+    const bool served = found.count > 0u && found.fits && last == end && !(found.sharp && finest * push.map.radiusPx < kMapTentPx);
     imageStore(rungs, int(list), uvec4(served ? found.count | (found.sharp ? kSharpRung : 0u) : 0u));
     for (int word = 0; word < 2; ++word) imageStore(leftPixels, 2 * int(list) + word, uvec4(served ? 0u : ~0u));
 }

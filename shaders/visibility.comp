@@ -33,7 +33,7 @@ void visit(Candidate candidate, inout Sweep sweep) {
         sweep.running = sweep.layers.transmittance > 0.0;
         if (!sweep.running) return;
     }
-    addSample(sweep.surface, candidate, radianceAt(candidate.record), sweep.baseRadius);
+    addSample(sweep.surface, candidate, sweep.baseRadius);
 }
 
 bool hides(Sweep sweep, Brick brick) {
@@ -59,7 +59,7 @@ void main() {
     const float widening = push.radiusPx / push.grid.radiusPx;
     Sweep sweep = Sweep(true, push.radiusPx, push.grid.surfaceGap, kFullWeight * widening * widening, noSurface(),
                         Layers(vec3(0.0), 1.0));
-    const bool complete = forEachCandidate(push.grid, o, 2.0 * push.radiusPx, texelFetch(listStart, list).x,
+    const bool complete = forEachCandidate(push.grid, o, 2.0 * push.radiusPx, kAnyNarrowing, texelFetch(listStart, list).x,
                                            texelFetch(listStart, list + 1).x, sweep);
     if (!complete) {
         imageStore(overflowList, int(imageAtomicAdd(counters, int(kOverflowCount), 1u)), uvec4(slot));

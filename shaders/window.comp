@@ -8,13 +8,14 @@
 #include "shared/window.h"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0) uniform textureBuffer positions; // p.x, p.y, slope, 0; in pixel order
+layout(set = 0, binding = 0) uniform textureBuffer positions; // p.x, p.y, slope, square of its radius; in pixel order
 layout(set = 0, binding = 1) uniform textureBuffer radiances;
 layout(set = 0, binding = 2) uniform utextureBuffer pattern;
 layout(set = 0, binding = 3, rgba32f) uniform writeonly imageBuffer dense;
 layout(set = 0, binding = 4, r32ui) uniform uimageBuffer counters;
 layout(set = 0, binding = 5, r32ui) uniform writeonly uimageBuffer overflowList;
 layout(set = 0, binding = 6) uniform textureBuffer apertureTable;
+layout(set = 0, binding = 7) uniform utextureBuffer pixelStart;
 layout(push_constant) uniform Push { WindowPush push; };
 
 float apertureAt(int i) { return texelFetch(apertureTable, i).x; }
@@ -29,13 +30,19 @@ struct WindowSurface {
 
 WindowSurface noSurface() { return WindowSurface(0, vec3(0.0), 0.0, noHull()); }
 
-Candidate candidateAt(uint record, Output o) {
+struct WindowCandidate {
+    vec2 offset; // from the output, pixels
+    float distance2, slope, radius2;
+    uint record;
+};
+
+WindowCandidate candidateAt(uint record, Output o) {
     const vec4 position = texelFetch(positions, int(record));
     const vec2 offset = position.xy + position.z * o.uv - o.xy;
-    return Candidate(offset, offset.x * offset.x + offset.y * offset.y, position.z, 1.0, record);
+    return WindowCandidate(offset, offset.x * offset.x + offset.y * offset.y, position.z, position.w, record);
 }
 
-void addSample(inout WindowSurface surface, Candidate candidate, float alpha) {
+void addSample(inout WindowSurface surface, WindowCandidate candidate, float alpha) {
     const float weight = expOfMinus(min(alpha * candidate.distance2, kMaxExponent));
     surface.count += 1;
     surface.sum += weight * texelFetch(radiances, int(candidate.record)).rgb;
@@ -44,7 +51,7 @@ void addSample(inout WindowSurface surface, Candidate candidate, float alpha) {
 }
 
 /// Whether two trajectories have the same order, in x and in y, a lens step to either side.
-bool sameSurface(Candidate a, Candidate b, float lensStep) {
+bool sameSurface(WindowCandidate a, WindowCandidate b, float lensStep) {
     const vec2 apart = a.offset - b.offset;
     const float shear = (a.slope - b.slope) * lensStep;
     return (apart.x + shear > 0.0) == (apart.x - shear > 0.0) && (apart.y + shear > 0.0) == (apart.y - shear > 0.0);
@@ -70,20 +77,20 @@ void main() {
     int found = 0;
     uint nearest = 0u;
     float nearest2 = kInfinity;
-    const float radius2 = search.radiusPx * search.radiusPx;
     const ivec2 center = pixel - search.boundsOrigin;
     const ivec2 first = max(center - search.rangePx, ivec2(0));
     const ivec2 last = min(center + search.rangePx, search.boundsSize - 1);
     for (int y = first.y; y <= last.y; ++y) {
-        const uint begin = uint((y * search.boundsSize.x + first.x) * search.samplesPerPixel);
-        const uint end = begin + uint(max(last.x - first.x + 1, 0) * search.samplesPerPixel);
+        if (last.x < first.x) break;
+        const int row = y * search.boundsSize.x;
+        const uint begin = texelFetch(pixelStart, row + first.x).x, end = texelFetch(pixelStart, row + last.x + 1).x;
         for (uint record = begin; record < end; ++record) {
-            const Candidate candidate = candidateAt(record, o);
+            const WindowCandidate candidate = candidateAt(record, o);
             if (candidate.distance2 < nearest2) {
                 nearest2 = candidate.distance2;
                 nearest = record;
             }
-            if (!(candidate.distance2 < radius2)) continue;
+            if (!(candidate.distance2 < candidate.radius2)) continue;
             if (found < kMaxWindowCandidates) {
                 slopes[found] = candidate.slope;
                 records[found] = record;
@@ -118,10 +125,10 @@ void main() {
     }
 
     WindowSurface front = noSurface(), surface = noSurface();
-    Candidate previous;
+    WindowCandidate previous;
     bool taken = false;
     for (int i = 0; i < found && !taken; ++i) {
-        const Candidate candidate = candidateAt(records[i], o);
+        const WindowCandidate candidate = candidateAt(records[i], o);
         if (surface.count >= kLeastSurface && !sameSurface(previous, candidate, search.lensStep)) {
             taken = surrounds(surface.hull);
             if (taken) break;

@@ -57,6 +57,12 @@ std::string slopeText(const LightField& field) {
     return text + " pixels per lens radius" + (hasOwnSlopes(field) ? "; samples have their own" : "");
 }
 
+std::string countsText(const LightField& field) {
+    const SampleCounts counts = sampleCounts(field);
+    if (field.pixelStart.empty()) return fmt::to_string(counts.most);
+    return fmt::format("{} to {} ({:.4g} on average)", counts.least, counts.most, counts.mean);
+}
+
 void line(std::string_view name, const std::string& value) {
     fmt::print("  {:<15}  {}\n", name, oneLine(value));
 }
@@ -68,7 +74,7 @@ void printText(const std::string& path, const FieldFile& file, const FieldSummar
     line("frame", fmt::format("{} of a film of {}", sizeText(field.frame), sizeText(details.film)));
     line("samples",
          fmt::format("{} in {} pixels, {} each, {}", field.samples.size(), sizeText(field.bounds),
-                     field.samplesPerPixel,
+                     countsText(field),
                      field.auxiliary.empty() ? "without albedo and normals" : "with albedo and normals"));
     line("slope", slopeText(field));
 
@@ -111,6 +117,7 @@ void printJson(const std::string& path, const FieldFile& file, const FieldSummar
     const LightField& field = file.field;
     const FieldDetails& details = file.details;
     const DerivedCamera camera = deriveCamera(file);
+    const SampleCounts counts = sampleCounts(field);
     const FieldDefects& d = summary.defects;
     nlohmann::ordered_json json = {
         {"file", path},
@@ -118,7 +125,7 @@ void printJson(const std::string& path, const FieldFile& file, const FieldSummar
         {"film", rectJson(details.film)},
         {"frame", rectJson(field.frame)},
         {"bounds", rectJson(field.bounds)},
-        {"samplesPerPixel", field.samplesPerPixel},
+        {"samplesPerPixel", {{"least", counts.least}, {"most", counts.most}, {"mean", counts.mean}}},
         {"samples", field.samples.size()},
         {"auxiliary", !field.auxiliary.empty()},
         {"c1", field.slopeModel.c1},

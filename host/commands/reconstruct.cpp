@@ -45,7 +45,7 @@ public:
         reconstruction_.lensScale = lensScale(options_.focus, file_.details);
         if (!options_.focus.aperture.empty())
             reconstruction_.aperture = Aperture(readAperture(options_.focus.aperture, "", {}));
-        checkBudget(file_.field.frame, file_.field.samplesPerPixel, reconstruction_);
+        checkBudget(file_.field.frame, int(sampleCounts(file_.field).most), reconstruction_);
         const double outside = shareOutside(apertureOf(file_.field, reconstruction_),
                                             reconstruction_.lensScale, file_.field.aperture);
         if (outside > kNegligible)

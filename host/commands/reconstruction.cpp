@@ -47,6 +47,12 @@ Image reconstructAndCompare(Backend& backend, const LightField& field, const Rec
     return image;
 }
 
+/// Samples a pixel: on average, where pixels differ.
+nlohmann::ordered_json sppOf(const LightField& field) {
+    if (field.pixelStart.empty()) return field.samplesPerPixel;
+    return float(sampleCounts(field).mean);
+}
+
 } // namespace
 
 void addCompareOption(CLI::App& command, bool& compareWithCpu) {
@@ -86,7 +92,7 @@ void addDetails(nlohmann::ordered_json& details, const CommonOptions& common, co
                 const Backend& backend, const ReconstructReport& report) {
     details.update({{"method", nameOf(common.method)},
                     {"device", backend.name},
-                    {"spp", field.samplesPerPixel},
+                    {"spp", sppOf(field)},
                     {"seed", common.seed},
                     {"c1", field.slopeModel.c1},
                     {"c2", field.slopeModel.c2},

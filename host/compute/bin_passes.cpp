@@ -20,11 +20,15 @@ uint lastWord(const Buffer& buffer) {
 } // namespace
 
 struct BinPasses::Placed {
-    Placed(Device& device, std::uint64_t count, std::uint64_t stoppedTexels)
+    Placed(Device& device, std::uint64_t count, std::uint64_t stoppedTexels, const SampleDensity& density)
         : positions(device, TexelFormat::rgba32f, count), radiances(device, TexelFormat::rgba32f, count),
-          stopped(device, TexelFormat::r32ui, stoppedTexels), pairs(device, count) {}
+          stopped(device, TexelFormat::r32ui, stoppedTexels),
+          pixelSums(device, TexelFormat::r32ui, density.sums.size()), pairs(device, count) {
+        pixelSums.upload(density.sums);
+    }
     Buffer positions, radiances;
     Buffer stopped;    ///< rays that end before each block
+    Buffer pixelSums;  ///< of SampleDensity
     PairBuffers pairs; ///< sort key, sample index
 };
 
@@ -40,24 +44,26 @@ void BinPasses::place(CommandList& commands, const LightField& field, BinPush pu
         push.firstSample = uint(first);
         push.count = uint(std::min(part, field.samples.size() - first));
         upload.upload(std::span(field.samples).subspan(first, push.count));
-        commands.dispatch(
-            place_, {upload, placed.positions, placed.radiances, placed.pairs.keys, placed.pairs.values},
-            push, place_.gridFor(push.count));
+        commands.dispatch(place_,
+                          {upload, placed.positions, placed.radiances, placed.pairs.keys, placed.pairs.values,
+                           placed.pixelSums},
+                          push, place_.gridFor(push.count));
         commands.dispatch(occlude_, {upload, placed.stopped}, push, occlude_.gridFor(push.count));
         commands.run();
     }
 }
 
-DeviceBins BinPasses::run(CommandList& commands, const LightField& field, const Rect& region,
-                          float marginPx) {
+DeviceBins BinPasses::run(CommandList& commands, const LightField& field, const Rect& region) {
+    const SampleDensity density = densityOf(field);
     BinPush push{};
-    push.grid = chooseGrid(field, region, marginPx);
-    push.occlusion = chooseOcclusion(push.grid, field.samplesPerPixel);
+    push.grid = chooseGrid(field, density, region);
+    push.occlusion = chooseOcclusion(push.grid, density);
+    push.density = density.layout;
     push.regionMin = ivec2(region.x0, region.y0);
     push.regionMax = ivec2(region.x1, region.y1);
-    push.marginPx = marginPx;
+    push.marginPx = widestSearchPx(density);
 
-    Placed placed(device_, field.samples.size(), stoppedBlocks(push.occlusion));
+    Placed placed(device_, field.samples.size(), stoppedBlocks(push.occlusion), density);
     commands.fill(placed.stopped, 0);
     place(commands, field, push, placed);
 
@@ -87,7 +93,7 @@ DeviceBins BinPasses::run(CommandList& commands, const LightField& field, const 
     Buffer bounds(device_, TexelFormat::r32ui, push.brickTotal * std::uint64_t(kBoundWords));
     Buffer brickKeys(device_, TexelFormat::r32ui, push.brickTotal);
     commands.fill(bounds, 0xffffffffu);
-    commands.dispatch(bounds_, {sorted.keys, positions, brickOfRecord, bounds, brickKeys}, push,
+    commands.dispatch(bounds_, {sorted.keys, positions, brickOfRecord, bounds, brickKeys, radiances}, push,
                       bounds_.gridFor(kept));
     Buffer bricks(device_, TexelFormat::rgba32ui, push.brickTotal),
         cellBases(device_, TexelFormat::r32ui, push.brickTotal);

@@ -20,7 +20,7 @@ public:
     explicit BinPasses(Device& device);
 
     /// Runs on `commands`, which must be empty, and leaves it empty.
-    DeviceBins run(CommandList& commands, const LightField& field, const Rect& region, float marginPx);
+    DeviceBins run(CommandList& commands, const LightField& field, const Rect& region);
 
 private:
     /// What bin_place makes of the samples, in sample order, and bin_occlude.

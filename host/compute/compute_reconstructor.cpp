@@ -25,8 +25,7 @@ void ComputeRun::observe(const char* name, const Buffer& buffer, std::uint64_t t
 DeviceBins ComputeRun::bin() {
     StageTimer timer(report, "bin", "samples");
     timer.items = field.samples.size();
-    DeviceBins bins = BinPasses(device).run(commands, field, outputRegion(field.frame, film.filter()),
-                                            kSearchRadii * emptyCircleRadius(field.samplesPerPixel));
+    DeviceBins bins = BinPasses(device).run(commands, field, outputRegion(field.frame, film.filter()));
     timer.bytes = device.peakBytes();
     observe("bin.bricks", bins.bricks);
     observe("bin.cells", bins.cellStart);

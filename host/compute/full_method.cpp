@@ -147,9 +147,7 @@ private:
 
     const Bins& cpuBins() {
         const LightField& field = run_.field;
-        if (!cpuBins_)
-            cpuBins_ = binSamples(field, outputRegion(field.frame, run_.film.filter()),
-                                  kSearchRadii * emptyCircleRadius(field.samplesPerPixel));
+        if (!cpuBins_) cpuBins_ = binSamples(field, outputRegion(field.frame, run_.film.filter()));
         return *cpuBins_;
     }
 

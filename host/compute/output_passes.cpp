@@ -1,6 +1,6 @@
 #include "compute/output_passes.h"
 
-#include "reconstruct/plan.h"
+#include "reconstruct/grid.h"
 
 #include <algorithm>
 

@@ -23,12 +23,14 @@ public:
                                      apertureOf(run.field, run.options))),
           pass_(run.device, "window"), positions_(uploaded(run.device, samples_.positions)),
           radiances_(uploaded(run.device, samples_.radiances)),
+          pixelStart_(run.device, TexelFormat::r32ui, samples_.pixelStart.size()),
           entries_(run.device, TexelFormat::rgba32ui, pattern_.entries.size()),
           aperture_(run.device, TexelFormat::r32f, pattern_.aperture.table().size()),
           counters_(run.device, TexelFormat::r32ui, kCounters),
           plan_(planOutputs(run.field.frame, run.film.filter(), pattern_, run.maxSamples)),
           dense_(run.device, TexelFormat::rgba32f, mostSamples()),
           overflowList_(run.device, TexelFormat::r32ui, mostSamples()) {
+        pixelStart_.upload(samples_.pixelStart);
         entries_.upload(std::span(pattern_.entries));
         aperture_.upload(pattern_.aperture.table());
     }
@@ -76,15 +78,16 @@ private:
 
     /// Returns the outputs that are left to the CPU, ascending.
     std::vector<uint> look(const WindowPush& push) {
-        if (windowSteps(search_) > std::uint64_t(kMaxWindowSteps)) {
+        if (windowSteps(run_.field, search_) > std::uint64_t(kMaxWindowSteps)) {
             std::vector<uint> all(push.count);
             std::iota(all.begin(), all.end(), 0u);
             return all;
         }
         run_.commands.fill(counters_, 0);
         run_.commands.dispatch(
-            pass_, {positions_, radiances_, entries_, dense_, counters_, overflowList_, aperture_}, push,
-            pass_.gridFor(push.count));
+            pass_,
+            {positions_, radiances_, entries_, dense_, counters_, overflowList_, aperture_, pixelStart_},
+            push, pass_.gridFor(push.count));
         run_.commands.run();
         std::vector<uint> counts(kCounters);
         counters_.download(std::span(counts));
@@ -114,7 +117,7 @@ private:
     WindowSearch search_;
     OutputPattern pattern_;
     Pass pass_;
-    Buffer positions_, radiances_, entries_, aperture_, counters_;
+    Buffer positions_, radiances_, pixelStart_, entries_, aperture_, counters_;
     Plan plan_;
     Buffer dense_, overflowList_;
 };

@@ -20,7 +20,6 @@
 #include <OpenEXR/ImfVersion.h>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace slant {
 namespace {
@@ -176,22 +175,17 @@ bool hasAny(const Imf::Header& header, const std::array<DeepChannel, count>& cha
 
 // ---------------------------------------------------------------- samples
 
-/// How many samples every pixel has.
-int readSamplesPerPixel(const InputFile& input, Imf::DeepScanLineInputFile& file, const Rect& bounds) {
+std::size_t rowSamples(const LightField& field, int y) {
+    const auto width = std::size_t(field.bounds.width()), first = std::size_t(y - field.bounds.y0) * width;
+    return field.firstSample(first + width) - field.firstSample(first);
+}
+
+/// How many samples the pixels have, row by row.
+std::vector<unsigned> readCounts(Imf::DeepScanLineInputFile& file, const Rect& bounds) {
     std::vector<unsigned> counts(bounds.area());
     file.setFrameBuffer(countBuffer(counts, bounds));
     file.readPixelSampleCounts(bounds.y0, bounds.y1 - 1);
-    const auto other = std::find_if(counts.begin(), counts.end(), [&](unsigned n) { return n != counts[0]; });
-    if (other != counts.end()) {
-        const auto place = int(other - counts.begin());
-        throw badInput(
-            {input.path()},
-            "pixel ({}, {}) has {} samples and pixel ({}, {}) has {}: fields whose pixels differ in "
-            "their number of samples are not read",
-            bounds.x0, bounds.y0, counts[0], bounds.x0 + place % bounds.width(),
-            bounds.y0 + place / bounds.width(), *other);
-    }
-    return int(std::min<unsigned>(counts[0], std::numeric_limits<int>::max()));
+    return counts;
 }
 
 /// What a file without these channels means.
@@ -206,29 +200,32 @@ void readSamples(const FileLocation& where, Imf::DeepScanLineInputFile& file, Fi
                  Monitor& monitor) {
     const Imf::Header& header = file.header();
     LightField& field = result.field;
-    const std::size_t rowSamples = std::size_t(field.bounds.width()) * std::size_t(field.samplesPerPixel);
-    DeepRow row(field.bounds, field.samplesPerPixel);
-    const auto addAll = [&](const auto& channels, auto& samples, std::size_t rowStep) {
-        constexpr std::size_t kSize = sizeof samples[0];
-        row.add(present(where, header, channels), samples.data(), kSize, rowStep * kSize);
+    const Rect& bounds = field.bounds;
+    DeepRow row(field);
+    const auto addAll = [&](const auto& channels, auto& samples, bool kept) {
+        row.add(present(where, header, channels), samples.data(), sizeof samples[0], kept);
     };
-    addAll(kSampleChannels, field.samples, rowSamples);
-    if (!field.auxiliary.empty()) addAll(kAuxiliaryChannels, field.auxiliary, rowSamples);
-    std::vector<MotionSample> motion(hasAny(header, kMotionChannels) ? rowSamples : 0);
-    if (!motion.empty()) addAll(kMotionChannels, motion, 0);
+    addAll(kSampleChannels, field.samples, true);
+    if (!field.auxiliary.empty()) addAll(kAuxiliaryChannels, field.auxiliary, true);
+    std::vector<MotionSample> motion; // of a row
+    if (hasAny(header, kMotionChannels)) {
+        std::size_t most = 0;
+        for (int y = bounds.y0; y < bounds.y1; ++y) most = std::max(most, rowSamples(field, y));
+        motion.resize(most);
+        addAll(kMotionChannels, motion, false);
+    }
 
     monitor.beginStage("read", field.samples.size(), "samples");
     file.setFrameBuffer(row.frameBuffer());
-    for (int y = field.bounds.y0; y < field.bounds.y1; ++y) {
+    for (int y = bounds.y0; y < bounds.y1; ++y) {
         row.moveTo(y);
         file.readPixelSampleCounts(y, y); // OpenEXR forgets them with every new frame buffer
         row.checkCounts(where);
         file.readPixels(y, y);
-        result.movingSamples +=
-            std::uint64_t(std::count_if(motion.begin(), motion.end(), [](const MotionSample& m) {
-                return m.x != 0 || m.y != 0 || m.w != 0;
-            }));
-        monitor.advance(rowSamples);
+        const auto last = motion.begin() + (motion.empty() ? 0 : long(rowSamples(field, y)));
+        result.movingSamples += std::uint64_t(std::count_if(
+            motion.begin(), last, [](const MotionSample& m) { return m.x != 0 || m.y != 0 || m.w != 0; }));
+        monitor.advance(rowSamples(field, y));
     }
     fillIn(field, header.channels().findChannel("A"), header.channels().findChannel("slope"));
     monitor.endStage();
@@ -263,21 +260,19 @@ void encode(Imf::OStream& stream, const LightField& field, const FieldDetails& d
     std::vector<DeepChannel> all = channels;
     if (!field.auxiliary.empty()) all.insert(all.end(), kAuxiliaryChannels.begin(), kAuxiliaryChannels.end());
 
-    const std::size_t rowSamples = std::size_t(field.bounds.width()) * std::size_t(field.samplesPerPixel);
-    DeepRow row(field.bounds, field.samplesPerPixel);
+    DeepRow row(field);
     // OpenEXR only reads from them.
-    row.add(channels, const_cast<LightFieldSample*>(field.samples.data()), sizeof(LightFieldSample),
-            rowSamples * sizeof(LightFieldSample));
+    row.add(channels, const_cast<LightFieldSample*>(field.samples.data()), sizeof(LightFieldSample));
     if (!field.auxiliary.empty())
         row.add(kAuxiliaryChannels, const_cast<AuxiliarySample*>(field.auxiliary.data()),
-                sizeof(AuxiliarySample), rowSamples * sizeof(AuxiliarySample));
+                sizeof(AuxiliarySample));
 
     Imf::DeepScanLineOutputFile file(stream, makeHeader(field, details, all));
     file.setFrameBuffer(row.frameBuffer());
     for (int y = field.bounds.y0; y < field.bounds.y1; ++y) {
         row.moveTo(y);
         file.writePixels(1);
-        monitor.advance(rowSamples);
+        monitor.advance(rowSamples(field, y));
     }
 }
 
@@ -295,15 +290,14 @@ FieldFile readDeepExr(const std::string& path, Monitor& monitor) {
         const auto* frame = find<Imf::Box2iAttribute>(header, "slant:frame");
         field.frame = frame ? toRect(frame->value()) : result.details.film.intersect(field.bounds);
         readAttributes(where, header, header.channels().findChannel("slope"), result);
-        field.samplesPerPixel = 1; // at least
+        field.samplesPerPixel = 1; // so far
         checkExtent(where, field, result.details);
-        requireBytes(input, field.bounds.area(), field.bounds.area());
+        requireBytes(input, field.bounds.area(), 0);
 
         FileStream stream(input);
         Imf::DeepScanLineInputFile file(stream);
-        field.samplesPerPixel = readSamplesPerPixel(input, file, field.bounds);
-        checkExtent(where, field, result.details);
-        requireBytes(input, field.bounds.area(), field.bounds.area() * std::uint64_t(field.samplesPerPixel));
+        takeSampleCounts(where, field, readCounts(file, field.bounds));
+        requireBytes(input, field.bounds.area(), field.firstSample(field.bounds.area()));
         allocateSamples(field, hasAny(header, kAuxiliaryChannels));
         readSamples(where, file, result, monitor);
     } catch (const Iex::BaseExc& error) {

@@ -14,37 +14,37 @@ char* originOf(T* first, std::ptrdiff_t items) {
 
 } // namespace
 
-DeepRow::DeepRow(const Rect& bounds, int samplesPerPixel)
-    : bounds_(bounds), samplesPerPixel_(samplesPerPixel),
-      counts_(std::size_t(bounds.width()), unsigned(samplesPerPixel)) {
+DeepRow::DeepRow(const LightField& field) : field_(field), counts_(std::size_t(field.bounds.width())) {
     buffer_.insertSampleCountSlice(
-        Imf::Slice(Imf::UINT, originOf(counts_.data(), bounds_.x0), sizeof(unsigned), 0));
+        Imf::Slice(Imf::UINT, originOf(counts_.data(), field.bounds.x0), sizeof(unsigned), 0));
 }
 
-void DeepRow::add(std::span<const DeepChannel> channels, void* samples, std::size_t stride,
-                  std::size_t rowBytes) {
+void DeepRow::add(std::span<const DeepChannel> channels, void* samples, std::size_t stride, bool kept) {
     for (const DeepChannel& channel : channels) {
-        channels_.push_back({static_cast<char*>(samples) + channel.offset, stride, rowBytes,
-                             std::vector<char*>(std::size_t(bounds_.width()))});
+        channels_.push_back(
+            {static_cast<char*>(samples) + channel.offset, stride, kept, std::vector<char*>(counts_.size())});
         buffer_.insert(channel.name,
-                       Imf::DeepSlice(Imf::FLOAT, originOf(channels_.back().pixels.data(), bounds_.x0),
+                       Imf::DeepSlice(Imf::FLOAT, originOf(channels_.back().pixels.data(), field_.bounds.x0),
                                       sizeof(char*), 0, stride));
     }
 }
 
 void DeepRow::moveTo(int y) {
-    for (Channel& channel : channels_) {
-        char* first = channel.first + std::size_t(y - bounds_.y0) * channel.rowBytes;
-        for (char*& pixel : channel.pixels) {
-            pixel = first;
-            first += std::size_t(samplesPerPixel_) * channel.stride;
-        }
+    firstPixel_ = std::size_t(y - field_.bounds.y0) * counts_.size();
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+        const std::size_t sample = field_.firstSample(firstPixel_ + i);
+        counts_[i] = unsigned(field_.samplesOf(firstPixel_ + i));
+        for (Channel& channel : channels_)
+            channel.pixels[i] =
+                channel.first +
+                (channel.kept ? sample : sample - field_.firstSample(firstPixel_)) * channel.stride;
     }
 }
 
 void DeepRow::checkCounts(const FileLocation& where) const {
-    for (const unsigned count : counts_)
-        if (count != unsigned(samplesPerPixel_)) throw badInput(where, "changed while it was read");
+    for (std::size_t i = 0; i < counts_.size(); ++i)
+        if (counts_[i] != field_.samplesOf(firstPixel_ + i))
+            throw badInput(where, "changed while it was read");
 }
 
 Imf::DeepFrameBuffer countBuffer(std::vector<unsigned>& counts, const Rect& bounds) {

@@ -14,30 +14,31 @@ namespace slant {
 /// one scanline, the same for all, and set anew by moveTo.
 class DeepRow {
 public:
-    /// Every pixel of `bounds` has `samplesPerPixel` samples.
-    DeepRow(const Rect& bounds, int samplesPerPixel);
+    /// Takes bounds and counts of samples from the field, which must outlive it.
+    explicit DeepRow(const LightField& field);
     DeepRow(const DeepRow&) = delete;
     DeepRow& operator=(const DeepRow&) = delete;
 
-    /// Channels of samples that begin at `samples`, `stride` bytes apart, those of a row `rowBytes` after
-    /// those of the row before.
-    void add(std::span<const DeepChannel> channels, void* samples, std::size_t stride, std::size_t rowBytes);
+    /// Channels of samples, `stride` bytes apart, of which those of the field begin at `samples`; or, if they
+    /// are not kept, those of every row.
+    void add(std::span<const DeepChannel> channels, void* samples, std::size_t stride, bool kept = true);
     void moveTo(int y);
-    /// Throws Error(badInput) where the counts that were read last for a row are not samplesPerPixel: there
-    /// is no room for more.
+    /// Throws Error(badInput) where the counts that were read last for this row are not those of the field:
+    /// there is no room for more.
     void checkCounts(const FileLocation& where) const;
     const Imf::DeepFrameBuffer& frameBuffer() const { return buffer_; }
 
 private:
     struct Channel {
-        char* first; ///< of the whole field
-        std::size_t stride, rowBytes;
+        char* first; ///< of the whole field, or of a row
+        std::size_t stride;
+        bool kept;
         std::vector<char*> pixels; ///< of this row
     };
 
-    Rect bounds_;
-    int samplesPerPixel_;
-    std::vector<unsigned> counts_; ///< of one row, all alike
+    const LightField& field_;
+    std::size_t firstPixel_ = 0;   ///< of this row
+    std::vector<unsigned> counts_; ///< of this row
     std::vector<Channel> channels_;
     Imf::DeepFrameBuffer buffer_;
 };

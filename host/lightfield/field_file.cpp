@@ -25,6 +25,11 @@ std::string textOf(const Rect& r) {
     return fmt::format("[{}, {}) x [{}, {})", r.x0, r.x1, r.y0, r.y1);
 }
 
+void checkTotal(const FileLocation& location, std::uint64_t samples) {
+    if (samples >= std::numeric_limits<std::uint32_t>::max())
+        throw badInput(location, "{} samples are not fewer than 2^32 - 1", samples);
+}
+
 bool isOpenExr(const std::string& path) {
     constexpr char kMagic[4] = {0x76, 0x2f, 0x31, 0x01};
     const InputFile file(path);
@@ -87,9 +92,7 @@ void checkExtent(const FileLocation& location, const LightField& field, const Fi
     if (field.samplesPerPixel < 1 || field.samplesPerPixel > kMaxSamplesPerPixel)
         throw badInput(location, "{} samples a pixel are not 1 to {}", field.samplesPerPixel,
                        kMaxSamplesPerPixel);
-    const std::uint64_t samples = std::uint64_t(field.bounds.area()) * std::uint64_t(field.samplesPerPixel);
-    if (samples >= std::numeric_limits<std::uint32_t>::max())
-        throw badInput(location, "{} samples are not fewer than 2^32 - 1", samples);
+    checkTotal(location, std::uint64_t(field.bounds.area()) * std::uint64_t(field.samplesPerPixel));
     const SlopeModel& slope = field.slopeModel;
     for (const float constant : {slope.c1, slope.c2, slope.c3, slope.d1, slope.d2})
         if (!std::isfinite(constant))
@@ -102,8 +105,21 @@ void checkExtent(const FileLocation& location, const LightField& field, const Fi
             slope.c1);
 }
 
+void takeSampleCounts(const FileLocation& location, LightField& field,
+                      std::span<const std::uint32_t> counts) {
+    std::uint64_t samples = 0;
+    for (const std::uint32_t count : counts) {
+        if (count > std::uint32_t(kMaxSamplesPerPixel))
+            throw badInput(location, "{} samples in a pixel are more than {}", count, kMaxSamplesPerPixel);
+        samples += count;
+    }
+    if (samples == 0) throw badInput(location, "holds no samples");
+    checkTotal(location, samples);
+    setSampleCounts(field, counts);
+}
+
 void allocateSamples(LightField& field, bool auxiliary) {
-    const std::size_t count = field.bounds.area() * std::size_t(field.samplesPerPixel);
+    const std::size_t count = field.firstSample(field.bounds.area());
     try {
         field.samples.resize(count);
         field.auxiliary.resize(auxiliary ? count : 0);

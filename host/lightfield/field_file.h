@@ -34,8 +34,12 @@ void writeField(const std::string& path, const LightField& field, const FieldDet
                 Monitor& monitor);
 
 /// The extent of a field before its samples are there. Throws Error(badInput) unless sizes are within the
-/// limits, the frame lies within the bounds, and c1 <= 0 (nearer is smaller) and c2 are finite.
+/// limits, the frame lies within the bounds, and c1 <= 0 (nearer is smaller) and c2 are finite. Of samples a
+/// pixel it knows only one number for all.
 void checkExtent(const FileLocation& location, const LightField& field, const FieldDetails& details);
+
+/// As setSampleCounts. Throws Error(badInput) where there are too many, or none at all.
+void takeSampleCounts(const FileLocation& location, LightField& field, std::span<const std::uint32_t> counts);
 
 /// Makes room for the samples of checked extents; throws Error(resources) where there is none.
 void allocateSamples(LightField& field, bool auxiliary);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <numeric>
 
 namespace slant {
 namespace {
@@ -53,6 +54,26 @@ void repair(LightFieldSample& s, FieldDefects& defects) {
     defects.outsideLens += outsideLens;
     defects.badPosition += badPosition;
     if (badDepth || outsideLens || badPosition) s.slope = std::numeric_limits<float>::quiet_NaN();
+}
+
+SampleCounts sampleCounts(const LightField& field) {
+    const std::size_t pixels = field.bounds.area();
+    SampleCounts counts{field.samplesOf(0), field.samplesOf(0),
+                        double(field.firstSample(pixels)) / double(pixels)};
+    for (std::size_t i = 1; i < field.pixelStart.size(); ++i) {
+        counts.least = std::min(counts.least, field.samplesOf(i - 1));
+        counts.most = std::max(counts.most, field.samplesOf(i - 1));
+    }
+    return counts;
+}
+
+void setSampleCounts(LightField& field, std::span<const std::uint32_t> counts) {
+    field.pixelStart.clear();
+    field.samplesPerPixel = int(counts[0]);
+    if (std::all_of(counts.begin(), counts.end(), [&](std::uint32_t n) { return n == counts[0]; })) return;
+    field.samplesPerPixel = 0;
+    field.pixelStart.resize(counts.size() + 1);
+    std::partial_sum(counts.begin(), counts.end(), field.pixelStart.begin() + 1);
 }
 
 bool hasOwnSlopes(const LightField& field) {

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 namespace slant {
@@ -34,17 +35,33 @@ struct AuxiliarySample {
     glm::vec3 normal; ///< world space, unit length, towards the camera; 0 where nothing was hit
 };
 
-/// Samples in the order row, column, sample of a pixel: pixel (i, j) of `bounds` holds samples
-/// [((j - y0) * width + (i - x0)) * samplesPerPixel, ...+ samplesPerPixel), each of them inside that pixel.
+/// Samples in the order row, column, sample of a pixel: pixel k of `bounds`, counted row by row, holds
+/// samples [firstSample(k), firstSample(k + 1)), each of them inside that pixel.
 struct LightField {
-    Rect bounds; ///< pixels with samples: the frame and its overscan
-    Rect frame;  ///< pixels of the picture to reconstruct
-    int samplesPerPixel = 0;
+    Rect bounds;             ///< pixels with samples: the frame and its overscan
+    Rect frame;              ///< pixels of the picture to reconstruct
+    int samplesPerPixel = 0; ///< of every pixel; 0 where they differ in it
     SlopeModel slopeModel;
     std::vector<LightFieldSample> samples;
-    std::vector<AuxiliarySample> auxiliary; ///< empty, or one a sample
-    Aperture aperture;                      ///< over which lens positions are spread
+    std::vector<AuxiliarySample> auxiliary;     ///< empty, or one a sample
+    Aperture aperture;                          ///< over which lens positions are spread
+    std::vector<std::uint32_t> pixelStart = {}; ///< where pixels differ: firstSample of each, and of one more
+
+    std::size_t firstSample(std::size_t pixel) const {
+        return pixelStart.empty() ? pixel * std::size_t(samplesPerPixel) : pixelStart[pixel];
+    }
+    std::size_t samplesOf(std::size_t pixel) const { return firstSample(pixel + 1) - firstSample(pixel); }
 };
+
+/// How many samples the pixels have.
+struct SampleCounts {
+    std::size_t least = 0, most = 0;
+    double mean = 0;
+};
+SampleCounts sampleCounts(const LightField& field);
+
+/// Gives every pixel of `bounds`, row by row, as many samples; the samples themselves are still to come.
+void setSampleCounts(LightField& field, std::span<const std::uint32_t> counts);
 
 /// Whether any sample's slope is not that of its depth.
 bool hasOwnSlopes(const LightField& field);

@@ -41,27 +41,27 @@ LightField refocused(LightField field, double distance) {
 
 int missingOverscanPx(const LightField& field, float lensScale) {
     const Rect &frame = field.frame, &bounds = field.bounds;
-    const std::size_t rowSamples = std::size_t(bounds.width()) * std::size_t(field.samplesPerPixel);
+    const auto width = std::size_t(bounds.width());
     float missing = 0;
     std::mutex mutex;
-    parallelFor(std::size_t(frame.y0 - bounds.y0), std::size_t(frame.y1 - bounds.y0), 1,
-                [&](std::size_t first, std::size_t last) {
-                    float here = 0;
-                    for (std::size_t i = first * rowSamples; i < last * rowSamples; ++i) {
-                        const LightFieldSample& s = field.samples[i];
-                        const float radius = std::abs(s.slope) * lensScale;
-                        const glm::vec2 p = glm::vec2(s.x, s.y) - s.slope * glm::vec2(s.u, s.v);
-                        if (!std::isfinite(radius) || !std::isfinite(p.x + p.y)) continue;
-                        // A point of the frame that is spread so far has neighbours spread as far.
-                        if (p.x < float(frame.x0) || p.x > float(frame.x1)) continue;
-                        if (p.y < float(frame.y0) || p.y > float(frame.y1)) continue;
-                        here = std::max({here, float(bounds.x0) - (p.x - radius),
-                                         float(bounds.y0) - (p.y - radius), p.x + radius - float(bounds.x1),
-                                         p.y + radius - float(bounds.y1)});
-                    }
-                    const std::lock_guard lock(mutex);
-                    missing = std::max(missing, here);
-                });
+    parallelFor(
+        std::size_t(frame.y0 - bounds.y0), std::size_t(frame.y1 - bounds.y0), 1,
+        [&](std::size_t first, std::size_t last) {
+            float here = 0;
+            for (std::size_t i = field.firstSample(first * width); i < field.firstSample(last * width); ++i) {
+                const LightFieldSample& s = field.samples[i];
+                const float radius = std::abs(s.slope) * lensScale;
+                const glm::vec2 p = glm::vec2(s.x, s.y) - s.slope * glm::vec2(s.u, s.v);
+                if (!std::isfinite(radius) || !std::isfinite(p.x + p.y)) continue;
+                // A point of the frame that is spread so far has neighbours spread as far.
+                if (p.x < float(frame.x0) || p.x > float(frame.x1)) continue;
+                if (p.y < float(frame.y0) || p.y > float(frame.y1)) continue;
+                here = std::max({here, float(bounds.x0) - (p.x - radius), float(bounds.y0) - (p.y - radius),
+                                 p.x + radius - float(bounds.x1), p.y + radius - float(bounds.y1)});
+            }
+            const std::lock_guard lock(mutex);
+            missing = std::max(missing, here);
+        });
     return int(std::ceil(std::min(missing, 1e6f)));
 }
 

@@ -37,14 +37,14 @@ void addSummary(FieldSummary& sum, const FieldSummary& part) {
 FieldSummary summarize(const LightField& field) {
     FieldSummary sum;
     std::mutex mutex;
-    const auto spp = std::size_t(field.samplesPerPixel), width = std::size_t(field.bounds.width());
+    const auto width = std::size_t(field.bounds.width());
     parallelFor(0, std::size_t(field.bounds.height()), 1, [&](std::size_t first, std::size_t last) {
         FieldSummary local;
         for (std::size_t j = first; j < last; ++j)
             for (std::size_t i = 0; i < width; ++i)
-                for (std::size_t k = 0; k < spp; ++k)
-                    addSample(local, field.samples[(j * width + i) * spp + k], field.bounds.x0 + int(i),
-                              field.bounds.y0 + int(j));
+                for (std::size_t k = field.firstSample(j * width + i);
+                     k < field.firstSample(j * width + i + 1); ++k)
+                    addSample(local, field.samples[k], field.bounds.x0 + int(i), field.bounds.y0 + int(j));
         const std::lock_guard lock(mutex);
         addSummary(sum, local);
     });

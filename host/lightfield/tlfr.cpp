@@ -216,6 +216,11 @@ void writeTlfr(const std::string& path, const LightField& field, const FieldDeta
             fmt::format("'{}': this field's slopes are not C1/w + C2, which is all that TLFR can say; write "
                         "deep OpenEXR",
                         path));
+    if (!field.pixelStart.empty())
+        throw Error(ErrorCode::usage,
+                    fmt::format("'{}': the pixels of this field differ in their number of samples, and TLFR "
+                                "knows one for all; write deep OpenEXR",
+                                path));
     AtomicFile body(path), header(path + ".header");
     monitor.beginStage("write", field.samples.size(), "samples");
     if (text)

@@ -48,34 +48,38 @@ Order sortedSamples(const LightField& field, const Rect& region, float marginPx,
 struct BrickBounds {
     uint key = kNotBinned; ///< of the brick
     ivec2 first{255}, last{0};
-    float slopeMin = 0, slopeMax = 0;
+    float slopeMin = 0, slopeMax = 0, narrowing = 0;
 
-    BrickBounds(uint brickKey, float slope) : key(brickKey), slopeMin(slope), slopeMax(slope) {}
+    BrickBounds(uint brickKey, float slope, float ownNarrowing)
+        : key(brickKey), slopeMin(slope), slopeMax(slope), narrowing(ownNarrowing) {}
 
-    void add(ivec2 cell, float slope) {
+    void add(ivec2 cell, float slope, float ownNarrowing) {
         first = glm::min(first, cell);
         last = glm::max(last, cell);
         slopeMin = std::min(slopeMin, slope);
         slopeMax = std::max(slopeMax, slope);
+        narrowing = std::min(narrowing, ownNarrowing);
     }
 
     Brick brick(const GridLayout& grid) const {
         const ivec2 place(int(key) % grid.brickCount.x, int(key) / grid.brickCount.x % grid.brickCount.y);
-        const ivec2 low = place * grid.cellsPerBrick + first, high = place * grid.cellsPerBrick + last;
-        return {uint(low.x | low.y << 16), uint(high.x | high.y << 16), slopeMin, slopeMax};
+        const ivec2 low = place * grid.cellsPerBrick + first, extent = last - first;
+        const uint radius = uint(glm::ceil(kRadiusSteps / narrowing));
+        return {uint(low.x | low.y << 16), uint(extent.x | extent.y << 6) | radius << 12, slopeMin, slopeMax};
     }
 };
 
 } // namespace
 
-Bins binSamples(const LightField& field, const Rect& region, float marginPx) {
+Bins binSamples(const LightField& field, const Rect& region) {
+    const SampleDensity density = densityOf(field);
     Bins bins;
-    bins.grid = chooseGrid(field, region, marginPx);
+    bins.grid = chooseGrid(field, density, region);
     const uint cellsPerBrick = uint(bins.grid.cellsPerBrick) * uint(bins.grid.cellsPerBrick);
-    const Order order = sortedSamples(field, region, marginPx, bins.grid);
+    const Order order = sortedSamples(field, region, widestSearchPx(density), bins.grid);
     const std::size_t count = order.keys.size();
 
-    const OcclusionLayout occlusion = chooseOcclusion(bins.grid, field.samplesPerPixel);
+    const OcclusionLayout occlusion = chooseOcclusion(bins.grid, density);
     const std::vector<uint> stopped = countStopped(field, bins.grid, occlusion);
 
     bins.positions.reserve(count);
@@ -84,15 +88,17 @@ Bins binSamples(const LightField& field, const Rect& region, float marginPx) {
     for (std::size_t record = 0; record < count; ++record) {
         const uint key = order.keys[record], cell = key % cellsPerBrick;
         const LightFieldSample& s = field.samples[order.samples[record]];
+        const vec2 p = pinholePosition(s);
+        const float narrowing = narrowingAt(density, p, s.slope, bins.grid.radiusPx);
         if (bricks.empty() || key / cellsPerBrick != bricks.back().key)
-            bricks.emplace_back(key / cellsPerBrick, s.slope);
+            bricks.emplace_back(key / cellsPerBrick, s.slope, narrowing);
         bricks.back().add(ivec2(int(cell) % bins.grid.cellsPerBrick, int(cell) / bins.grid.cellsPerBrick),
-                          s.slope);
+                          s.slope, narrowing);
         // Cells up to this one begin here at the latest.
         bins.cellStart.resize((bricks.size() - 1) * cellsPerBrick + cell + 1, uint(record));
-        const vec2 p = pinholePosition(s);
-        bins.positions.emplace_back(p, s.slope, visibilityWeight(stopped, bins.grid, occlusion, p, s.slope));
-        bins.radiances.emplace_back(s.r, s.g, s.b, s.alpha);
+        bins.positions.emplace_back(p, s.slope,
+                                    visibilityWeight(stopped, bins.grid, occlusion, p, s.slope, narrowing));
+        bins.radiances.emplace_back(s.r, s.g, s.b, narrowing);
     }
     for (const BrickBounds& bounds : bricks) bins.bricks.push_back(bounds.brick(bins.grid));
     bins.cellStart.resize(bins.bricks.size() * cellsPerBrick + 1, uint(count));

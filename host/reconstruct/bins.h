@@ -10,7 +10,11 @@ inline ivec2 firstCell(const Brick& brick) {
     return ivec2(brick.firstCell & 0xffffu, brick.firstCell >> 16);
 }
 inline ivec2 lastCell(const Brick& brick) {
-    return ivec2(brick.lastCell & 0xffffu, brick.lastCell >> 16);
+    return firstCell(brick) + ivec2(brick.extent & 63u, brick.extent >> 6 & 63u);
+}
+/// Over R.
+inline float widestRadius(const Brick& brick) {
+    return float(brick.extent >> 12) * (1.f / kRadiusSteps);
 }
 
 struct Bins {
@@ -19,10 +23,10 @@ struct Bins {
     std::vector<uint> cellStart; ///< bricks * cellsPerBrick^2 + 1: first record of each cell
     std::vector<vec4> positions; ///< records in cell order, in sample order within a cell: p.x, p.y, slope,
                                  ///< visibilityWeight
-    std::vector<vec4> radiances; ///< r, g, b, alpha
+    std::vector<vec4> radiances; ///< r, g, b, narrowingAt
 };
 
 /// Bins the samples that reach `region` (see chooseGrid).
-Bins binSamples(const LightField& field, const Rect& region, float marginPx);
+Bins binSamples(const LightField& field, const Rect& region);
 
 } // namespace slant

@@ -9,8 +9,8 @@ void boxMethod(CpuRun& run) {
     const LightField& field = run.field;
     StageTimer timer(run.report, "pixel_filter", "samples");
     timer.items = field.samples.size();
-    for (const Band& band :
-         planBands(field.frame, run.film.filter(), field.samplesPerPixel, maxDenseSamples(run.options))) {
+    const int planes = int(sampleCounts(field).most);
+    for (const Band& band : planBands(field.frame, run.film.filter(), planes, maxDenseSamples(run.options))) {
         const DenseSamples dense = denseFromInput(field, band.region);
         run.observe("dense", dense.samples);
         run.film.accumulate(dense, band.y0, band.y1);

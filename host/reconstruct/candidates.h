@@ -13,11 +13,11 @@ struct SearchContext {
 
 /// A sample seen from the output's lens position.
 struct Candidate {
-    vec2 offset; ///< from the output, pixels
-    float distance2;
+    vec2 offset;     ///< from the output, pixels
+    float distance2; ///< as if its own radius were that of the search
     float slope;
-    float weight; ///< see visibilityWeight
-    uint record;
+    float weight;  ///< see visibilityWeight
+    vec4 radiance; ///< rgb; R over its own radius
 };
 
 inline ivec2 cellAt(const GridLayout& grid, vec2 place) {
@@ -25,20 +25,22 @@ inline ivec2 cellAt(const GridLayout& grid, vec2 place) {
     return ivec2(glm::clamp(glm::floor(place), vec2(0), vec2(cells - 1)));
 }
 
-/// Calls visit for the samples that reproject to within `radius` of the output, until it returns false or
-/// hides(brick) says that what was met so far hides a brick and all that follow. They come in the order of
-/// their bricks: front to back, up to the width of a bucket. Returns loop steps.
+/// Calls visit for the samples that reproject to within `radius` of the output, or less for those whose own
+/// radius is less than R: down to 1 / mostNarrowing of it. They come in the order of their bricks: front to
+/// back, up to the width of a bucket; until visit returns false or hides(brick) says that what was met so far
+/// hides a brick and all that follow. Returns loop steps.
 template <typename Visit, typename Hides>
-int forEachCandidate(const SearchContext& context, const Output& output, float radius, Visit&& visit,
-                     Hides&& hides) {
+int forEachCandidate(const SearchContext& context, const Output& output, float radius, float mostNarrowing,
+                     Visit&& visit, Hides&& hides) {
     const GridLayout& grid = context.bins.grid;
     const int side = grid.cellsPerBrick;
     // In cells: where the output lies, how far its window moves with slope, and its half width.
     const vec2 center = (output.xy - grid.origin) * grid.invCell, shear = output.uv * grid.invCell;
-    const float reach = radius * grid.invCell;
     int iterations = 0;
     for (const uint id : context.bricks) {
         const Brick& brick = context.bins.bricks[id];
+        const float ownRadius = radius * glm::max(widestRadius(brick), 1.f / mostNarrowing);
+        const float reach = ownRadius * grid.invCell;
         const vec2 a = brick.slopeMin * shear, b = brick.slopeMax * shear;
         const ivec2 first = glm::max(cellAt(grid, center - glm::max(a, b) - reach), firstCell(brick));
         const ivec2 last = glm::min(cellAt(grid, center - glm::min(a, b) + reach), lastCell(brick));
@@ -55,17 +57,17 @@ int forEachCandidate(const SearchContext& context, const Output& output, float r
                 const vec4& position = context.bins.positions[record];
                 const vec2 offset = vec2(position.x, position.y) + position.z * output.uv - output.xy;
                 const float distance2 = offset.x * offset.x + offset.y * offset.y;
-                if (distance2 < radius * radius &&
-                    !visit(Candidate{offset, distance2, position.z, position.w, record}))
+                if (!(distance2 < ownRadius * ownRadius)) continue;
+                const vec4& radiance = context.bins.radiances[record];
+                const float narrowing = glm::min(radiance.w, mostNarrowing);
+                const float narrowed2 = distance2 * (narrowing * narrowing);
+                if (narrowed2 < radius * radius &&
+                    !visit(Candidate{offset, narrowed2, position.z, position.w, radiance}))
                     return iterations;
             }
         }
     }
     return iterations;
-}
-
-inline vec3 radianceOf(const SearchContext& context, const Candidate& candidate) {
-    return vec3(context.bins.radiances[candidate.record]);
 }
 
 } // namespace slant

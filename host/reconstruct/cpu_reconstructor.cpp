@@ -18,8 +18,7 @@ Bins CpuRun::bin() const {
     const Bins bins = [&] {
         StageTimer timer(report, "bin", "samples");
         timer.items = field.samples.size();
-        return binSamples(field, outputRegion(field.frame, film.filter()),
-                          kSearchRadii * emptyCircleRadius(field.samplesPerPixel));
+        return binSamples(field, outputRegion(field.frame, film.filter()));
     }();
     observe("bin.bricks", bins.bricks);
     observe("bin.cells", bins.cellStart);

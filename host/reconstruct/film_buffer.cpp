@@ -1,6 +1,7 @@
 #include "reconstruct/film_buffer.h"
 
 #include "base/parallel.h"
+#include "reconstruct/hash.h"
 
 #include <algorithm>
 #include <cmath>
@@ -91,8 +92,8 @@ Image FilmBuffer::toImage(std::uint64_t& emptyPixels) const {
 }
 
 DenseSamples denseFromInput(const LightField& field, const Rect& region) {
-    const std::size_t spp = std::size_t(field.samplesPerPixel);
-    DenseSamples dense{region, std::vector<vec4>(region.area() * spp, vec4(0, 0, 0, -1))};
+    const std::size_t planes = sampleCounts(field).most;
+    DenseSamples dense{region, std::vector<vec4>(region.area() * planes, vec4(0, 0, 0, -1))};
     parallelFor(0, std::size_t(region.height()), 1, [&](std::size_t first, std::size_t last) {
         for (int j = int(first); j < int(last); ++j)
             for (int i = 0; i < region.width(); ++i) {
@@ -100,8 +101,11 @@ DenseSamples denseFromInput(const LightField& field, const Rect& region) {
                 if (!field.bounds.contains(x, y)) continue;
                 const std::size_t pixel = std::size_t(y - field.bounds.y0) * field.bounds.width() +
                                           std::size_t(x - field.bounds.x0);
-                for (std::size_t k = 0; k < spp; ++k) {
-                    const LightFieldSample& s = field.samples[pixel * spp + k];
+                const std::size_t count = field.samplesOf(pixel);
+                // Which samples stand in once more than others is left to chance.
+                const std::size_t turn = count < planes ? hash(uint(pixel)) : 0;
+                for (std::size_t k = 0; count > 0 && k < planes; ++k) {
+                    const LightFieldSample& s = field.samples[field.firstSample(pixel) + (k + turn) % count];
                     if (std::isnan(s.slope)) continue; // disabled by sanitize
                     dense.samples[k * region.area() + std::size_t(j) * region.width() + i] =
                         vec4(s.r, s.g, s.b, positionCode(s.x - float(x), s.y - float(y)));

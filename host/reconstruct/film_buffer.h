@@ -48,7 +48,8 @@ private:
     std::vector<vec4> sums_;
 };
 
-/// Input samples as dense planes, without those that sanitize disabled; pixels of `region` outside `bounds`
+/// Input samples as dense planes, as many as the pixel with most samples has. Others repeat theirs, so that
+/// all pixels weigh the same. Those that sanitize disabled are left out; pixels of `region` outside `bounds`
 /// have none.
 DenseSamples denseFromInput(const LightField& field, const Rect& region);
 

@@ -57,8 +57,12 @@ Bounds boundsOf(const LightField& field, const Rect& region, float marginPx) {
 
 } // namespace
 
-float emptyCircleRadius(int samplesPerPixel) {
-    return kSearchRadius / std::sqrt(float(samplesPerPixel));
+float emptyCircleRadius(float samplesPerPixel) {
+    return kSearchRadius / std::sqrt(samplesPerPixel);
+}
+
+float widestSearchPx(const SampleDensity& density) {
+    return float(2 << kWidenings) * emptyCircleRadius(density.least);
 }
 
 bool reaches(const LightFieldSample& s, const Rect& region, float marginPx) {
@@ -74,12 +78,13 @@ float largestSlope(const GridLayout& grid) {
                     std::abs(grid.slopeMin + float(grid.bucketCount) / grid.invBucket));
 }
 
-GridLayout chooseGrid(const LightField& field, const Rect& region, float marginPx) {
-    Bounds bounds = boundsOf(field, region, marginPx);
+GridLayout chooseGrid(const LightField& field, const SampleDensity& density, const Rect& region) {
+    Bounds bounds = boundsOf(field, region, widestSearchPx(density));
     GridLayout grid{};
     grid.sampleCount = uint(bounds.count);
     if (bounds.count == 0) bounds.add(vec2(0), 0);
-    grid.radiusPx = emptyCircleRadius(field.samplesPerPixel);
+    grid.radiusPx = emptyCircleRadius(density.least);
+    const float typicalRadiusPx = emptyCircleRadius(density.typical);
 
     const float widestPx = float(std::max(region.width(), region.height())) / 2;
     const float slopeMin = std::clamp(bounds.slopeMin, -widestPx, widestPx);
@@ -90,8 +95,8 @@ GridLayout chooseGrid(const LightField& field, const Rect& region, float marginP
     grid.slopeMin = slopeMin;
     grid.origin = glm::floor(glm::min(low, high));
 
-    float cellPx = grid.radiusPx * kCellPerRadius;
-    float bucketWidth = std::min(kSurfaceSlopeStep, grid.radiusPx);
+    float cellPx = typicalRadiusPx * kCellPerRadius;
+    float bucketWidth = std::min(kSurfaceSlopeStep, typicalRadiusPx);
     grid.cellsPerBrick = std::clamp(int(std::lround(kBrickPx / cellPx)), 1, kMaxCellsPerBrick);
     for (;;) {
         grid.invCell = 1 / cellPx;

@@ -4,21 +4,20 @@
 // (x, y) looking through (u, v) sees it at p + slope (u, v). So samples binned by p and by slope are found in
 // a window of p that is as wide as the slopes of one brick are spread, however large the blur is.
 #pragma once
-#include "lightfield/lightfield.h"
-#include "shared/reconstruct.h"
+#include "reconstruct/density.h"
 
 namespace slant {
 
 /// The radius R of the search, in pixels: a little over that of the largest empty circle of a sheared
 /// pattern. On `spheres` 1.5 / sqrt(spp) gives the same error.
-float emptyCircleRadius(int samplesPerPixel);
+float emptyCircleRadius(float samplesPerPixel);
+
+/// The search is widened by three doublings of 2 R.
+constexpr int kWidenings = 3;
+/// Margin of the samples that outputs of a picture can come to use.
+float widestSearchPx(const SampleDensity& density);
 
 constexpr float kFarPx = 1e9f; ///< further than any sample that can be seen
-
-/// Pinhole position of a sample.
-inline vec2 pinholePosition(const LightFieldSample& s) {
-    return vec2(s.x, s.y) - s.slope * vec2(s.u, s.v);
-}
 
 /// Whether any output in `region` can come to use this sample (false for disabled samples).
 bool reaches(const LightFieldSample& sample, const Rect& region, float marginPx);
@@ -28,7 +27,7 @@ float largestSlope(const GridLayout& grid);
 
 /// Lays the grid over the samples that reach `region`, with fewer than 2^32 cells in all, so that a sort key
 /// has 32 bits. What lies further off than half the picture goes into the bricks of the rim and the first and
-/// last bucket, which reach to infinity. `marginPx` is the widest search.
-GridLayout chooseGrid(const LightField& field, const Rect& region, float marginPx);
+/// last bucket, which reach to infinity.
+GridLayout chooseGrid(const LightField& field, const SampleDensity& density, const Rect& region);
 
 } // namespace slant

@@ -65,7 +65,7 @@ MapLayout chooseMap(const GridLayout& grid, const Rect& region, float reachPx, f
     map.reachPx = reachPx;
     map.spreadPerPx = spreadPerPx;
     map.code = slopeCode(grid);
-    map.tooCoarse = grid.radiusPx < kMapTentPx;
+    map.radiusPx = grid.radiusPx;
     map.levels = 1;
     for (float spacing = float(kMapTexels) * spreadPerPx * largestSlope(grid);
          spacing >= kLevelSpacing && map.levels < kMapLevels; spacing *= 0.5f)
@@ -110,16 +110,20 @@ MapTexel resolveWithin(const SearchContext& context, vec2 p, float radius, float
     const float fullWeight = kFullWeight * widening * widening;
     MapTexel texel;
     Surface surface;
-    const auto visit = [&](const Candidate& candidate) {
+    const float mostNarrowing = radius / kMapTentPx;
+    const auto visit = [&](Candidate candidate) {
         if (surface.count > 0 && candidate.slope > surface.slopeMax + grid.surfaceGap) {
             close(texel, surface, fullWeight, false);
             surface = Surface{};
             if (texel.count == kMapLayers) return false;
         }
-        addSample(surface, candidate, radianceOf(context, candidate), radius);
+        // Where own radii are less than the tent's, there are more samples in it than it takes.
+        const float widened = glm::min(candidate.radiance.w, mostNarrowing) / candidate.radiance.w;
+        candidate.weight *= widened * widened;
+        addSample(surface, candidate, radius);
         return true;
     };
-    forEachCandidate(context, Output{p, vec2(0), 0, 0}, searchRadius, visit,
+    forEachCandidate(context, Output{p, vec2(0), 0, 0}, searchRadius, mostNarrowing, visit,
                      [](const Brick&) { return false; });
     if (surface.count > 0) close(texel, surface, fullWeight, true);
     return texel;

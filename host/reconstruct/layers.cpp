@@ -96,6 +96,7 @@ Rung rungOf(const Bins& bins, std::span<const uint> bricks, const LensBox& lens,
     const float lensRadius =
         glm::min(glm::sqrt(farthest.x * farthest.x + farthest.y * farthest.y), lensScale);
     Rung rung;
+    float finest = 1; ///< own radius, over R
     bool fits = bricks.size() <= std::size_t(kMaxLoopIterations);
     vec2 open(std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity());
     const auto close = [&] {
@@ -108,6 +109,7 @@ Rung rungOf(const Bins& bins, std::span<const uint> bricks, const LensBox& lens,
     };
     for (std::size_t i = 0; i < bricks.size(); ++i) {
         const Brick& brick = bins.bricks[bricks[i]];
+        finest = glm::min(finest, widestRadius(brick));
         if (i > 0 && brick.slopeMin > open.y + bins.grid.surfaceGap) {
             close();
             open = {brick.slopeMin, brick.slopeMax};
@@ -115,7 +117,7 @@ Rung rungOf(const Bins& bins, std::span<const uint> bricks, const LensBox& lens,
         open = {glm::min(open.x, brick.slopeMin), glm::max(open.y, brick.slopeMax)};
     }
     if (!bricks.empty()) close();
-    if (!fits || (rung.sharp && map.tooCoarse != 0)) rung.clusters.clear();
+    if (!fits || (rung.sharp && finest * map.radiusPx < kMapTentPx)) rung.clusters.clear();
     return rung;
 }
 

@@ -50,20 +50,20 @@ int blockOf(const OcclusionLayout& layout, vec2 p, float slope, vec2 origin) {
 
 } // namespace
 
-OcclusionLayout chooseOcclusion(const GridLayout& grid, int samplesPerPixel) {
+OcclusionLayout chooseOcclusion(const GridLayout& grid, const SampleDensity& density) {
     const float slopes = float(grid.bucketCount) / grid.invBucket;
     const vec2 extent = vec2(grid.brickCount * grid.cellsPerBrick) / grid.invCell;
     OcclusionLayout layout;
     layout.slopeMin = grid.slopeMin;
     layout.spacing = std::max({kLeastSpacingPx, grid.surfaceGap, slopes / float(kMaxPlanes - 1)});
     layout.planeCount = int(slopes / layout.spacing) + 1;
-    layout.stride = uint(std::max(1, samplesPerPixel / kRaysPerPixel));
+    layout.stride = uint(std::max(1, int(density.typical) / kRaysPerPixel));
     float blockPx = kLeastBlockPx;
     const auto blocks = [&] { return glm::floor(extent / blockPx) + 1.f; };
     while (double(layout.planeCount) * blocks().x * blocks().y > kMaxBlocks) blockPx *= 2;
     layout.blockCount = ivec2(blocks());
     layout.invBlock = 1 / blockPx;
-    layout.raysPerBlock = float(samplesPerPixel) / float(layout.stride) * blockPx * blockPx;
+    layout.raysPerBlock = density.least / float(layout.stride) * blockPx * blockPx;
     return layout;
 }
 
@@ -87,9 +87,10 @@ std::vector<uint> countStopped(const LightField& field, const GridLayout& grid,
 }
 
 float visibilityWeight(std::span<const uint> stopped, const GridLayout& grid, const OcclusionLayout& layout,
-                       vec2 p, float slope) {
+                       vec2 p, float slope, float narrowing) {
     const uint count = stopped[blockOf(layout, p, slope, grid.origin)];
-    return 1.f / glm::max(1.f - float(count) / layout.raysPerBlock, kLeastVisible);
+    const float rays = layout.raysPerBlock * (narrowing * narrowing);
+    return 1.f / glm::max(1.f - float(count) / rays, kLeastVisible);
 }
 
 } // namespace slant

@@ -34,9 +34,9 @@ Rect outputRegion(const Rect& frame, const FilterTable& filter) {
             frame.y1 + filter.reach.y};
 }
 
-void checkBudget(const Rect& frame, int samplesPerPixel, const ReconstructOptions& options) {
+void checkBudget(const Rect& frame, int mostSamplesPerPixel, const ReconstructOptions& options) {
     const int planes =
-        options.method == Method::box ? samplesPerPixel : std::min(kFilmBlock, options.outputsPerPixel);
+        options.method == Method::box ? mostSamplesPerPixel : std::min(kFilmBlock, options.outputsPerPixel);
     planBands(frame, makeFilterTable(options.filter), planes, maxDenseSamples(options));
 }
 

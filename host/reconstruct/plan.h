@@ -11,10 +11,6 @@
 
 namespace slant {
 
-/// Widest search: 2 * 2^3 R (three doublings).
-constexpr int kWidenings = 3;
-constexpr float kSearchRadii = 16;
-
 struct Band {
     int y0, y1;  ///< rows of the frame that it finishes
     Rect region; ///< pixels whose dense samples it needs: the rows and the filter's reach
@@ -30,7 +26,7 @@ Rect outputRegion(const Rect& frame, const FilterTable& filter);
 
 /// Throws Error(resources), as the reconstruction of such a field would, when the memory budget is too small
 /// for a row of tiles; it needs no samples to know.
-void checkBudget(const Rect& frame, int samplesPerPixel, const ReconstructOptions& options);
+void checkBudget(const Rect& frame, int mostSamplesPerPixel, const ReconstructOptions& options);
 
 OutputLayout layoutOf(const Band& band, const OutputPattern& pattern, std::uint64_t seed);
 

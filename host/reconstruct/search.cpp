@@ -24,7 +24,7 @@ Reconstructed reconstructNearest(const SearchContext& context, const Output& out
         another = weightSum > 0 && candidate.slope > slopeMax + grid.surfaceGap;
         if (another) return false;
         const float weight = candidate.weight * (1 - glm::sqrt(candidate.distance2) * invRadius);
-        sum += weight * radianceOf(context, candidate);
+        sum += weight * vec3(candidate.radiance);
         weightSum += weight;
         slopeMax = glm::max(slopeMax, candidate.slope);
         addPoint(hull, candidate.offset);
@@ -33,7 +33,7 @@ Reconstructed reconstructNearest(const SearchContext& context, const Output& out
     const auto hides = [&](const Brick& brick) {
         return brick.slopeMin > slopeMax + grid.surfaceGap && isSolid();
     };
-    result.iterations = forEachCandidate(context, output, grid.radiusPx, visit, hides);
+    result.iterations = forEachCandidate(context, output, grid.radiusPx, kAnyNarrowing, visit, hides);
     const bool taken = another ? isSolid() : weightSum > 0;
     result.outcome = taken ? Outcome::resolved : Outcome::needsVisibility;
     if (taken) result.rgb = sum / weightSum;
@@ -71,13 +71,13 @@ Reconstructed resolveVisibility(const SearchContext& context, const Output& outp
             surface = Surface{};
             if (!(layers.transmittance > 0)) return false;
         }
-        addSample(surface, candidate, radianceOf(context, candidate), baseRadius);
+        addSample(surface, candidate, baseRadius);
         return true;
     };
     const auto hides = [&](const Brick& brick) {
         return brick.slopeMin > surface.slopeMax + grid.surfaceGap && isSolid(surface, fullWeight);
     };
-    result.iterations = forEachCandidate(context, output, 2 * baseRadius, visit, hides);
+    result.iterations = forEachCandidate(context, output, 2 * baseRadius, kAnyNarrowing, visit, hides);
     if (surface.count > 0) layers.rgb += layers.transmittance * meanOf(surface);
     if (surface.count > 0 || !(layers.transmittance > 0)) result.outcome = Outcome::resolved;
     result.rgb = layers.rgb;

@@ -17,7 +17,8 @@ struct Surface {
     Hull hull;
 };
 
-inline void addSample(Surface& surface, const Candidate& candidate, const vec3& rgb, float baseRadius) {
+inline void addSample(Surface& surface, const Candidate& candidate, float baseRadius) {
+    const vec3 rgb(candidate.radiance);
     const float distance = glm::sqrt(candidate.distance2) / baseRadius;
     const float inner = candidate.weight * glm::max(1 - distance, 0.f),
                 outer = candidate.weight * (2 - distance);

@@ -14,6 +14,7 @@ int tileOf(float px) {
 TileRange tilesSeeing(const Brick& brick, const GridLayout& grid, const OutputLayout& layout,
                       const LensBox& box, float marginPx) {
     const float cellPx = 1.f / grid.invCell;
+    const float ownMarginPx = glm::min(marginPx, glm::max(marginPx * widestRadius(brick), kLeastMarginPx));
     const ivec2 first = firstCell(brick), last = lastCell(brick);
     const ivec2 rim = grid.brickCount * grid.cellsPerBrick - 1;
     vec2 low = grid.origin + vec2(first) * cellPx;
@@ -26,8 +27,8 @@ TileRange tilesSeeing(const Brick& brick, const GridLayout& grid, const OutputLa
     const vec2 c = brick.slopeMax * box.min, d = brick.slopeMax * box.max;
     const vec2 shearMin = glm::min(glm::min(a, b), glm::min(c, d));
     const vec2 shearMax = glm::max(glm::max(a, b), glm::max(c, d));
-    const vec2 from = low + shearMin - marginPx - vec2(layout.regionOrigin);
-    const vec2 to = high + shearMax + marginPx - vec2(layout.regionOrigin);
+    const vec2 from = low + shearMin - ownMarginPx - vec2(layout.regionOrigin);
+    const vec2 to = high + shearMax + ownMarginPx - vec2(layout.regionOrigin);
     return {glm::max(ivec2(tileOf(from.x), tileOf(from.y)), ivec2(0)),
             glm::min(ivec2(tileOf(to.x), tileOf(to.y)) + 1, layout.tileCount)};
 }

@@ -1,7 +1,7 @@
 #include "reconstruct/window.h"
 
 #include "base/parallel.h"
-#include "reconstruct/grid.h"
+#include "reconstruct/density.h"
 #include "reconstruct/hull.h"
 
 #include <algorithm>
@@ -14,6 +14,11 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// A pinhole position that no output is near to.
 constexpr float kNowherePx = 1e18f;
+
+/// Distance of samples.
+float spacingPx(float samplesPerPixel) {
+    return 1 / std::sqrt(samplesPerPixel);
+}
 
 /// What is known of an apparent surface.
 struct WindowSurface {
@@ -45,13 +50,14 @@ std::size_t collect(const WindowSamples& samples, const WindowSearch& search, iv
     found.clear();
     std::size_t nearest = samples.positions.size();
     float nearest2 = kInfinity;
-    const float radius2 = search.radiusPx * search.radiusPx;
     const ivec2 center = pixel - search.boundsOrigin;
     const ivec2 first = glm::max(center - search.rangePx, ivec2(0));
     const ivec2 last = glm::min(center + search.rangePx, search.boundsSize - 1);
     for (int y = first.y; y <= last.y; ++y) {
-        const uint begin = uint((y * search.boundsSize.x + first.x) * search.samplesPerPixel);
-        const uint end = begin + uint(std::max(last.x - first.x + 1, 0) * search.samplesPerPixel);
+        const std::size_t row = std::size_t(y) * std::size_t(search.boundsSize.x);
+        if (last.x < first.x) break;
+        const uint begin = samples.pixelStart[row + std::size_t(first.x)];
+        const uint end = samples.pixelStart[row + std::size_t(last.x) + 1];
         for (uint record = begin; record < end; ++record) {
             const vec4& position = samples.positions[record];
             const vec2 offset = vec2(position.x, position.y) + position.z * output.uv - output.xy;
@@ -60,7 +66,7 @@ std::size_t collect(const WindowSamples& samples, const WindowSearch& search, iv
                 nearest2 = distance2;
                 nearest = record;
             }
-            if (distance2 < radius2) found.push_back({offset, distance2, position.z, record});
+            if (distance2 < position.w) found.push_back({offset, distance2, position.z, record});
         }
     }
     std::stable_sort(found.begin(), found.end(),
@@ -80,13 +86,20 @@ float expOfMinus(float x) {
 }
 
 WindowSamples windowSamples(const LightField& field) {
-    WindowSamples samples{std::vector<vec4>(field.samples.size()), std::vector<vec4>(field.samples.size())};
+    const SampleDensity density = densityOf(field);
+    WindowSamples samples{std::vector<vec4>(field.samples.size()), std::vector<vec4>(field.samples.size()),
+                          std::vector<uint>(field.bounds.area() + 1)};
+    for (std::size_t pixel = 0; pixel < samples.pixelStart.size(); ++pixel)
+        samples.pixelStart[pixel] = uint(field.firstSample(pixel));
     parallelFor(0, field.samples.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             const LightFieldSample& s = field.samples[i];
             const vec2 p = pinholePosition(s);
             const bool seen = std::isfinite(p.x) && std::isfinite(p.y); // so that p + slope u is no NaN
-            samples.positions[i] = seen ? vec4(p, s.slope, 0) : vec4(kNowherePx, kNowherePx, 0, 0);
+            const float around = seen ? samplesAround(density, p, s.slope) : 1.f;
+            const float radiusPx = 2 * spacingPx(around);
+            samples.positions[i] =
+                seen ? vec4(p, s.slope, radiusPx * radiusPx) : vec4(kNowherePx, kNowherePx, 0, 0);
             samples.radiances[i] = vec4(s.r, s.g, s.b, s.alpha);
         }
     });
@@ -94,22 +107,19 @@ WindowSamples windowSamples(const LightField& field) {
 }
 
 WindowSearch windowSearch(const LightField& field, const WindowOptions& options) {
-    const float spacingPx = 1 / std::sqrt(float(field.samplesPerPixel));
     WindowSearch search{};
     search.boundsOrigin = ivec2(field.bounds.x0, field.bounds.y0);
     search.boundsSize = ivec2(field.bounds.width(), field.bounds.height());
-    search.samplesPerPixel = field.samplesPerPixel;
     search.rangePx = options.rangePx;
-    search.radiusPx = 2 * spacingPx;
     search.alpha = options.alpha;
-    search.lensStep = options.lensStep.value_or(spacingPx);
+    search.lensStep = options.lensStep.value_or(spacingPx(float(sampleCounts(field).mean)));
     search.fill = options.fill;
     return search;
 }
 
-std::uint64_t windowSteps(const WindowSearch& search) {
+std::uint64_t windowSteps(const LightField& field, const WindowSearch& search) {
     const auto width = std::uint64_t(2 * search.rangePx + 1);
-    return width + width * width * std::uint64_t(search.samplesPerPixel);
+    return width + width * width * sampleCounts(field).most;
 }
 
 WindowResult lookThroughWindow(const WindowSamples& samples, const WindowSearch& search, ivec2 pixel,

@@ -16,16 +16,19 @@ namespace slant {
 
 /// Samples in the order of the field, as the search reads them.
 struct WindowSamples {
-    std::vector<vec4> positions; ///< pinhole position x, y, slope, 0; far off where the sample is disabled
-    std::vector<vec4> radiances; ///< r, g, b, alpha
+    std::vector<vec4> positions;  ///< pinhole position x, y, slope, square of its radius; far off where the
+                                  ///< sample is disabled
+    std::vector<vec4> radiances;  ///< r, g, b, alpha
+    std::vector<uint> pixelStart; ///< first sample of each pixel of the bounds, and of one more
 };
 
 WindowSamples windowSamples(const LightField& field);
 
 WindowSearch windowSearch(const LightField& field, const WindowOptions& options);
 
-/// Steps of the loops over a whole window; beyond kMaxWindowSteps the compute path leaves it to the CPU.
-std::uint64_t windowSteps(const WindowSearch& search);
+/// The most steps of the loops over a whole window; beyond kMaxWindowSteps the compute path leaves it to the
+/// CPU.
+std::uint64_t windowSteps(const LightField& field, const WindowSearch& search);
 
 enum class WindowOutcome {
     found,  ///< by one surface alone

@@ -8,10 +8,10 @@
 
 struct Candidate {
     vec2 offset; // from the output, pixels
-    float distance2;
+    float distance2; // as if its own radius were that of the search
     float slope;
     float weight; // see lib/occlusion.glsl
-    uint record;
+    vec4 radiance; // rgb; R over its own radius
 };
 
 /// Whether an output lies inside the convex hull of samples.

@@ -34,7 +34,8 @@ Brick brickOf(uvec4 texel) {
 }
 
 ivec2 firstCell(Brick brick) { return ivec2(brick.firstCell & 0xffffu, brick.firstCell >> 16); }
-ivec2 lastCell(Brick brick) { return ivec2(brick.lastCell & 0xffffu, brick.lastCell >> 16); }
+ivec2 lastCell(Brick brick) { return firstCell(brick) + ivec2(brick.extent & 63u, brick.extent >> 6 & 63u); }
+float widestRadius(Brick brick) { return float(brick.extent >> 12) * (1.0 / kRadiusSteps); }
 
 int tileOf(float px) { return int(floor(clamp(px * (1.0 / float(kTileSize)), -1e6, 1e6))); }
 
@@ -42,6 +43,7 @@ int tileOf(float px) { return int(floor(clamp(px * (1.0 / float(kTileSize)), -1e
 /// last.zw, half-open; empty where last <= first.
 ivec4 tilesSeeing(Brick brick, GridLayout grid, OutputLayout outputs, vec4 box, float marginPx) {
     const float cellPx = 1.0 / grid.invCell;
+    const float ownMarginPx = min(marginPx, max(marginPx * widestRadius(brick), kLeastMarginPx));
     const ivec2 first = firstCell(brick), last = lastCell(brick);
     const ivec2 rim = grid.brickCount * grid.cellsPerBrick - 1;
     vec2 low = grid.origin + vec2(first) * cellPx;
@@ -54,8 +56,8 @@ ivec4 tilesSeeing(Brick brick, GridLayout grid, OutputLayout outputs, vec4 box, 
     const vec2 c = brick.slopeMax * box.xy, d = brick.slopeMax * box.zw;
     const vec2 shearMin = min(min(a, b), min(c, d));
     const vec2 shearMax = max(max(a, b), max(c, d));
-    const vec2 from = low + shearMin - marginPx - vec2(outputs.regionOrigin);
-    const vec2 to = high + shearMax + marginPx - vec2(outputs.regionOrigin);
+    const vec2 from = low + shearMin - ownMarginPx - vec2(outputs.regionOrigin);
+    const vec2 to = high + shearMax + ownMarginPx - vec2(outputs.regionOrigin);
     return ivec4(max(ivec2(tileOf(from.x), tileOf(from.y)), ivec2(0)),
                  min(ivec2(tileOf(to.x), tileOf(to.y)) + 1, outputs.tileCount));
 }

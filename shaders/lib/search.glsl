@@ -1,6 +1,7 @@
 // One output against the bins. As host/reconstruct/search.cpp, where it is explained.
 //
-// Needs, declared before the include: positionAt(uint) and cellStartAt(uint), which read the bins;
+// Needs, declared before the include: positionAt(uint), radianceAt(uint) and cellStartAt(uint), which read the
+// bins;
 // listedBrick(uint) and listedCellBase(uint), which read the lists; a struct Sweep with a member `bool running`;
 // visit(Candidate, inout Sweep), called for each candidate until it clears `running`; and hides(Sweep, Brick),
 // whether what was met so far hides a brick and all that follow.
@@ -10,14 +11,15 @@
 #include "lib/output.glsl"
 
 /// False where the search would have passed kMaxLoopIterations: the output must be done elsewhere.
-bool forEachCandidate(GridLayout grid, Output o, float radius, uint listBegin, uint listEnd, inout Sweep sweep) {
+bool forEachCandidate(GridLayout grid, Output o, float radius, float mostNarrowing, uint listBegin, uint listEnd, inout Sweep sweep) {
     const int side = grid.cellsPerBrick;
     // In cells: where the output lies, how far its window moves with slope, and its half width.
     const vec2 center = (o.xy - grid.origin) * grid.invCell, shear = o.uv * grid.invCell;
-    const float reach = radius * grid.invCell;
     int iterations = 0;
     for (uint entry = listBegin; entry < listEnd && sweep.running; ++entry) {
         const Brick brick = listedBrick(entry);
+        const float ownRadius = radius * max(widestRadius(brick), 1.0 / mostNarrowing);
+        const float reach = ownRadius * grid.invCell;
         const vec2 a = brick.slopeMin * shear, b = brick.slopeMax * shear;
         const ivec2 first = max(cellAt(grid, center - max(a, b) - reach), firstCell(brick));
         const ivec2 last = min(cellAt(grid, center - min(a, b) + reach), lastCell(brick));
@@ -36,7 +38,12 @@ bool forEachCandidate(GridLayout grid, Output o, float radius, uint listBegin, u
                 const vec4 position = positionAt(record);
                 const vec2 offset = position.xy + position.z * o.uv - o.xy;
                 const float distance2 = offset.x * offset.x + offset.y * offset.y;
-                if (distance2 < radius * radius) visit(Candidate(offset, distance2, position.z, position.w, record), sweep);
+                if (!(distance2 < ownRadius * ownRadius)) continue;
+                const vec4 radiance = radianceAt(record);
+                const float narrowing = min(radiance.w, mostNarrowing);
+                const float narrowed2 = distance2 * (narrowing * narrowing);
+                if (narrowed2 < radius * radius)
+                    visit(Candidate(offset, narrowed2, position.z, position.w, radiance), sweep);
             }
         }
     }

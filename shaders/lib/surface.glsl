@@ -16,7 +16,8 @@ Surface noSurface() {
     return Surface(0, -kInfinity, 0.0, vec3(0.0), vec3(0.0), 0.0, 0.0, noHull());
 }
 
-void addSample(inout Surface surface, Candidate candidate, vec3 rgb, float baseRadius) {
+void addSample(inout Surface surface, Candidate candidate, float baseRadius) {
+    const vec3 rgb = candidate.radiance.rgb;
     const float distance_ = sqrt(candidate.distance2) / baseRadius;
     const float inner = candidate.weight * max(1.0 - distance_, 0.0), outer = candidate.weight * (2.0 - distance_);
     surface.count += 1;

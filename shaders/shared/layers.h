@@ -52,7 +52,7 @@ struct MapLayout {
     float reachPx;     // a surface that moves further over the lens may lie outside the map
     float spreadPerPx; // distance of lens positions on a surface that is blurred over a pixel to each side
     SlopeCode code;
-    uint tooCoarse; // 1 where the texels would soften what is in focus
+    float radiusPx; // as GridLayout
 };
 
 /// A range of slopes, pixels per lens radius, and the level of the map where it is looked up.

@@ -11,7 +11,8 @@ SLANT_SHARED_CONSTANT int kTileSize = 8;
 /// whole blocks give the same film; and the most outputs of a pixel that share a lens group, and so a list of
 /// bricks.
 SLANT_SHARED_CONSTANT int kFilmBlock = 8;
-/// The search radius R is this over the square root of the samples a pixel.
+/// The search radius R is this over the square root of the samples a pixel where they are fewest; that of a sample
+/// (its own radius) the same where it lies.
 SLANT_SHARED_CONSTANT float kSearchRadius = 1.7f;
 /// What the tent weights within R of an output add up to, on average, where a surface is all around: every
 /// plane holds as many samples a square pixel as the pattern does. spp * integral of (1 - d / R) = pi / 3
@@ -47,7 +48,7 @@ struct GridLayout {
     float slopeMin;    // where the first bucket would begin, pixels per lens radius
     float invBucket;   // 1 / (width of a slope bucket)
     float surfaceGap;  // samples further apart in slope are on different surfaces; >= a bucket's width
-    float radiusPx;    // R: radius of the largest empty circle of the input pattern
+    float radiusPx;    // R: radius of the largest empty circle of the input pattern, where it is sparsest
     uint sampleCount;  // binned samples
 };
 
@@ -64,13 +65,18 @@ struct OutputLayout {
 /// grid's origin.
 struct Brick {
     uint firstCell; // column | row << 16
-    uint lastCell;  // column | row << 16, inclusive
+    uint extent;    // columns - 1 | rows - 1 << 6 | its widest own radius, in kRadiusSteps of R, << 12
     float slopeMin, slopeMax;
 };
+SLANT_SHARED_CONSTANT float kRadiusSteps = 524288.0f; // 2^19
+
+/// Margins of a list narrow with the own radii of a brick's samples, but no further than to this: the layer map
+/// looks that far (twice kMapTentPx).
+SLANT_SHARED_CONSTANT float kLeastMarginPx = 1.0f;
 
 /// Words of a brick while its bounds are gathered, each the least of what its samples have: slope in ordered
-/// bits, its complement, column, row, and the complements of those.
-SLANT_SHARED_CONSTANT uint kBoundWords = 6u;
+/// bits, its complement, column, row, the complements of those, and the bits of R over its own radius.
+SLANT_SHARED_CONSTANT uint kBoundWords = 7u;
 
 /// Words of the counters that passes append to.
 SLANT_SHARED_CONSTANT uint kVisibilityCount = 0u; // outputs that need visibility
@@ -87,13 +93,27 @@ struct OcclusionLayout {
     float slopeMin;     // pixels per lens radius
     float spacing;      // of planes
     uint stride;        // one sample in so many is followed
-    float raysPerBlock; // of these, if none were stopped
+    float raysPerBlock; // of these, if none were stopped, where samples are sparsest
 };
+
+/// Samples a pixel around any place: sums of the samples of all pixels above and to the left, (size.x + 1) a row.
+struct DensityLayout {
+    ivec2 origin; // pixel
+    ivec2 size;   // pixels; 0 where all have as many
+};
+/// Samples are counted over this many pixels to each side at least, and taken for this many a pixel at least.
+SLANT_SHARED_CONSTANT float kLeastHalfPx = 1.5f;
+SLANT_SHARED_CONSTANT float kLeastDensity = 0.015625f;
+/// Half the side of a square that has the area of the unit disc.
+SLANT_SHARED_CONSTANT float kHalfSquareOfDisc = 0.88622693f;
+/// A search whose radius narrows to each sample's own, however small that is.
+SLANT_SHARED_CONSTANT float kAnyNarrowing = 1e9f;
 
 /// bin_place, bin_occlude, bin_gather, bin_cells.
 struct BinPush {
     GridLayout grid;
     OcclusionLayout occlusion;
+    DensityLayout density;
     ivec2 regionMin, regionMax; // pixels whose outputs count
     float marginPx;             // widest search
     uint firstSample;           // of the uploaded part

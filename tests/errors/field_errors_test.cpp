@@ -141,12 +141,12 @@ TEST_F(FieldErrors, deepHeaders) {
 }
 
 TEST_F(FieldErrors, deepCounts) {
-    DeepFile varying;
-    varying.count = [](int x, int y) { return x == 3 && y == 2 ? 4u : 2u; };
-    deepFails(varying, "pixel (0, 0) has 2 samples and pixel (3, 2) has 4");
+    DeepFile crowded;
+    crowded.count = [](int x, int y) { return x == 3 && y == 2 ? 70000u : 2u; };
+    deepFails(crowded, "70000 samples in a pixel are more than 65536");
     DeepFile none;
     none.count = [](int, int) { return 0u; };
-    deepFails(none, "0 samples a pixel");
+    deepFails(none, "holds no samples");
 }
 
 TEST_F(FieldErrors, truncatedFilesOfEveryFormat) {

@@ -69,6 +69,16 @@ TEST_F(ReconstructParity, everyStageAtOddSizes) {
             }
 }
 
+TEST_F(ReconstructParity, pixelsThatDifferInTheirNumberOfSamples) {
+    const Rect frame{-7, 3, 30, 36};
+    for (const synthetic::Counts& counts : synthetic::varyingCounts(frame))
+        for (const Method method : kMethods) {
+            const LightField field = synthetic::sample(synthetic::discsOverChecks(), frame, 15, counts.at, 7);
+            const Reconstruction run = runBoth(field, optionsOf(method));
+            EXPECT_EQ(run.report.overflowed, 0u) << counts.name << ", " << nameOf(method);
+        }
+}
+
 TEST_F(ReconstructParity, everyFilter) {
     const LightField field = makeField({2, 1, 43, 28}, 3);
     for (const PixelFilter& filter : {PixelFilter{FilterKind::box, {0.5f, 0.5f}},

@@ -21,6 +21,7 @@ using Points = std::vector<Point>;
 
 /// Samples of the window that reproject to within the radius, front to back.
 Points pointsAround(const LightField& field, const WindowSearch& search, ivec2 pixel, const Output& o) {
+    const float radiusPx = 2 * (1 / std::sqrt(float(field.samplesPerPixel)));
     Points points;
     for (int y = field.bounds.y0; y < field.bounds.y1; ++y)
         for (int x = field.bounds.x0; x < field.bounds.x1; ++x) {
@@ -34,7 +35,7 @@ Points pointsAround(const LightField& field, const WindowSearch& search, ivec2 p
                               s.y + (double(o.uv.y) - s.v) * s.slope - o.xy.y,
                               s.slope,
                               {s.r, s.g, s.b}};
-                if (std::hypot(p.x, p.y) < search.radiusPx) points.push_back(p);
+                if (std::hypot(p.x, p.y) < radiusPx) points.push_back(p);
             }
         }
     std::stable_sort(points.begin(), points.end(), [](auto& a, auto& b) { return a.slope < b.slope; });

@@ -47,37 +47,67 @@ inline LightFieldSample look(const std::vector<Layer>& layers, glm::vec2 xy, glm
     return s;
 }
 
-/// spp samples in every pixel of `bounds`: a sqrt(spp)-ish grid in the pixel, jittered, and a shuffled one on
-/// the lens.
-inline LightField sample(const std::vector<Layer>& layers, Rect frame, int overscan, int spp,
-                         std::uint32_t seed, const Aperture& aperture = {}) {
+/// Adds a pixel's samples: a sqrt(spp)-ish grid in the pixel, jittered, and a shuffled one on the lens.
+inline void addPixel(LightField& field, const std::vector<Layer>& layers, int x, int y, int spp,
+                     std::uint32_t seed, const Aperture& aperture) {
+    const int columns = std::max(1, int(std::lround(std::sqrt(double(spp)))));
+    const int rows = (spp + columns - 1) / columns;
+    Random random(seed + std::uint32_t(y * 7919 + x * 104729));
+    const std::uint32_t shift = random.bits();
+    for (int i = 0; i < spp; ++i) {
+        const auto stratum = [&](int k, int count) { return (float(k) + random.uniform()) / float(count); };
+        const float fx = stratum(i % columns, columns), fy = stratum(i / columns, rows);
+        const int j = int((std::uint32_t(i) + shift) % std::uint32_t(spp));
+        const float r = std::sqrt(stratum(j, spp));
+        const float phi = 6.2831853f * std::fmod(float(j) * 0.618034f + random.uniform() / float(spp), 1.f);
+        const glm::vec2 lens = aperture.isDisc() ? r * glm::vec2(std::cos(phi), std::sin(phi))
+                                                 : aperture.at({2 * r * r - 1, phi * (2 / 6.2831853f) - 1});
+        field.samples.push_back(look(layers, {float(x) + fx, float(y) + fy}, lens, random.uniform()));
+    }
+}
+
+/// countAt(x, y) samples in each pixel of the frame and its overscan.
+inline LightField sample(const std::vector<Layer>& layers, Rect frame, int overscan,
+                         const std::function<int(int x, int y)>& countAt, std::uint32_t seed,
+                         const Aperture& aperture = {}) {
     LightField field;
     field.aperture = aperture;
     field.frame = frame;
     field.bounds = frame.expand(overscan);
-    field.samplesPerPixel = spp;
-    const int columns = std::max(1, int(std::lround(std::sqrt(double(spp)))));
+    std::vector<std::uint32_t> counts;
     for (int y = field.bounds.y0; y < field.bounds.y1; ++y)
         for (int x = field.bounds.x0; x < field.bounds.x1; ++x) {
-            Random random(seed + std::uint32_t(y * 7919 + x * 104729));
-            const std::uint32_t shift = random.bits();
-            for (int i = 0; i < spp; ++i) {
-                const int rows = (spp + columns - 1) / columns;
-                const auto stratum = [&](int k, int count) {
-                    return (float(k) + random.uniform()) / float(count);
-                };
-                const float fx = stratum(i % columns, columns), fy = stratum(i / columns, rows);
-                const int j = int((std::uint32_t(i) + shift) % std::uint32_t(spp));
-                const float r = std::sqrt(stratum(j, spp));
-                const float phi =
-                    6.2831853f * std::fmod(float(j) * 0.618034f + random.uniform() / float(spp), 1.f);
-                const glm::vec2 lens = aperture.isDisc()
-                                           ? r * glm::vec2(std::cos(phi), std::sin(phi))
-                                           : aperture.at({2 * r * r - 1, phi * (2 / 6.2831853f) - 1});
-                field.samples.push_back(look(layers, {float(x) + fx, float(y) + fy}, lens, random.uniform()));
-            }
+            counts.push_back(std::uint32_t(countAt(x, y)));
+            addPixel(field, layers, x, y, int(counts.back()), seed, aperture);
         }
+    setSampleCounts(field, counts);
     return field;
+}
+
+/// As many in every pixel.
+inline LightField sample(const std::vector<Layer>& layers, Rect frame, int overscan, int spp,
+                         std::uint32_t seed, const Aperture& aperture = {}) {
+    return sample(
+        layers, frame, overscan, [=](int, int) { return spp; }, seed, aperture);
+}
+
+/// A number that is the same for a pixel in every run.
+inline std::uint32_t pixelHash(int x, int y) {
+    return Random(std::uint32_t(x * 7919 + y * 104729 + 77)).bits();
+}
+
+/// Sample counts of adaptive renderers, at their worst.
+struct Counts {
+    const char* name;
+    std::function<int(int x, int y)> at;
+};
+inline std::vector<Counts> varyingCounts(Rect frame) {
+    const int middle = (frame.x0 + frame.x1) / 2;
+    return {{"2 beside 16", [=](int x, int) { return x < middle ? 2 : 16; }},
+            {"checkerboard of 1 and 8", [](int x, int y) { return (x + y) & 1 ? 8 : 1; }},
+            {"1 to 32 by chance", [](int x, int y) { return 1 + int(pixelHash(x, y) % 32); }},
+            {"8, and one in four without", [](int x, int y) { return pixelHash(x, y) % 4 == 0 ? 0 : 8; }},
+            {"1, and one in four without", [](int x, int y) { return pixelHash(x, y) % 4 == 0 ? 0 : 1; }}};
 }
 
 /// Discs in focus behind blurred discs, before a blurred checkerboard.

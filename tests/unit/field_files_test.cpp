@@ -76,6 +76,26 @@ TEST_F(FieldFiles, everyShapeOfAperture) {
     }
 }
 
+TEST_F(FieldFiles, exrHoldsAnyNumberOfSamplesInEachPixel) {
+    for (const synthetic::Counts& counts : synthetic::varyingCounts({-2, 1, 9, 8})) {
+        SCOPED_TRACE(counts.name);
+        FieldFile file = richField();
+        file.field = synthetic::sample(synthetic::discsOverChecks(), {-2, 1, 9, 8}, 4, counts.at, 3);
+        file.field.slopeModel = {-35.25f, 11.125f};
+        for (LightFieldSample& s : file.field.samples) {
+            s.slope = file.field.slopeModel(s.w);
+            file.field.auxiliary.push_back({glm::vec3(s.x), glm::vec3(s.y, 0, 1)});
+        }
+        ASSERT_FALSE(file.field.pixelStart.empty());
+        write("a.exr", file);
+        const FieldFile got = read("a.exr");
+        expectSame(got, file);
+        EXPECT_TRUE(got.field.pixelStart == file.field.pixelStart);
+        EXPECT_EQ(summarize(got.field).outsidePixel, 0u);
+        EXPECT_THROW(write("a.bin", file), Error) << "TLFR knows one number for all";
+    }
+}
+
 TEST_F(FieldFiles, everyFilterAndAnEmptyDescription) {
     FieldFile file = richField();
     for (const PixelFilter& filter : {PixelFilter{FilterKind::box, {0.5f, 0.25f}},

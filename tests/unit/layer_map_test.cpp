@@ -24,7 +24,7 @@ struct Fixture {
 
     explicit Fixture(const std::vector<synthetic::Layer>& layers, int spp = 16) {
         const LightField field = synthetic::sample(layers, kFrame, 15, spp, 3);
-        bins = binSamples(field, kFrame, kSearchRadii * emptyCircleRadius(spp));
+        bins = binSamples(field, kFrame);
         map = makeLayerMap(bins, chooseMap(bins.grid, kFrame, mapReach(bins.grid, 1), 0.5f));
         allBricks.resize(bins.bricks.size());
         std::iota(allBricks.begin(), allBricks.end(), 0u);

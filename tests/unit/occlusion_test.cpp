@@ -30,14 +30,14 @@ class Occlusion : public testing::TestWithParam<int> {};
 
 TEST_P(Occlusion, partOfTheLensBehindAnEdge) {
     const LightField field = halfPlaneBeforePlane(GetParam());
-    const GridLayout grid = chooseGrid(field, kFrame, 16);
-    const OcclusionLayout layout = chooseOcclusion(grid, GetParam());
+    const GridLayout grid = chooseGrid(field, densityOf(field), kFrame);
+    const OcclusionLayout layout = chooseOcclusion(grid, densityOf(field));
     const std::vector<uint> stopped = countStopped(field, grid, layout);
     // A ray to p on the plane behind passes the front at p + (kBack - kFront) u.
     for (float x = 36.5f; x < 60; x += 1) {
         double mean = 0;
         for (int y = 8; y < 64; ++y)
-            mean += 1 / visibilityWeight(stopped, grid, layout, vec2(x, y), kBack) / 56;
+            mean += 1 / visibilityWeight(stopped, grid, layout, vec2(x, y), kBack, 1) / 56;
         // Blocks are 4 px wide and planes up to a pixel from the sample's own slope.
         const double nearer = discBeyond((kEdge - x + 4.5) / (kBack - kFront)),
                      further = discBeyond((kEdge - x - 4.5) / (kBack - kFront));
@@ -48,11 +48,11 @@ TEST_P(Occlusion, partOfTheLensBehindAnEdge) {
 
 TEST_P(Occlusion, nothingHidesTheFront) {
     const LightField field = halfPlaneBeforePlane(GetParam());
-    const GridLayout grid = chooseGrid(field, kFrame, 16);
-    const OcclusionLayout layout = chooseOcclusion(grid, GetParam());
+    const GridLayout grid = chooseGrid(field, densityOf(field), kFrame);
+    const OcclusionLayout layout = chooseOcclusion(grid, densityOf(field));
     const std::vector<uint> stopped = countStopped(field, grid, layout);
     for (float x = 0; x < 48; x += 1)
-        EXPECT_EQ(visibilityWeight(stopped, grid, layout, vec2(x, 30), kFront), 1);
+        EXPECT_EQ(visibilityWeight(stopped, grid, layout, vec2(x, 30), kFront, 1), 1);
 }
 
 /// A picture of any size and blur has no more blocks than a device's buffer can hold.
@@ -64,7 +64,9 @@ TEST(OcclusionLayout, blocksStayBounded) {
     grid.bucketCount = 4000;
     grid.invBucket = 2;
     grid.surfaceGap = 0.5f;
-    const OcclusionLayout layout = chooseOcclusion(grid, 8);
+    SampleDensity density;
+    density.least = density.typical = 8;
+    const OcclusionLayout layout = chooseOcclusion(grid, density);
     EXPECT_LE(stoppedBlocks(layout), std::size_t(1) << 25);
     const vec2 covered = vec2(layout.blockCount) / layout.invBlock;
     EXPECT_GE(covered.x, 32000);
