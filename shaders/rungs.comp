@@ -61,7 +61,8 @@ void main() {
         found.open = vec2(min(found.open.x, brick.slopeMin), max(found.open.y, brick.slopeMax));
     }
     if (end > begin) close(found, lensRadius, begin);
-    const bool served = found.count > 0u && found.fits && last == end && !(found.sharp && finest * push.map.radiusPx < kMapTentPx);
+    const bool tooCoarse = finest * push.map.radiusPx < kMapTentPx;
+    const bool served = found.count > 0u && found.fits && last == end && !(found.sharp && tooCoarse);
     imageStore(rungs, int(list), uvec4(served ? found.count | (found.sharp ? kSharpRung : 0u) : 0u));
     for (int word = 0; word < 2; ++word) imageStore(leftPixels, 2 * int(list) + word, uvec4(served ? 0u : ~0u));
 }

@@ -19,13 +19,14 @@ struct PictureOptions {
     std::string png;    ///< empty: none
     float exposure = 0; ///< stops, of the PNG
     bool float32 = false;
+    bool auxiliary = false; ///< with further channels: reconstruct/auxiliary.h
 };
 
 /// SCENE
 void addSceneOption(CLI::App& command, std::string& scene);
-/// --png, --exposure, --float
+/// --png, --exposure, --float, --auxiliary
 void addImageOptions(CLI::App& command, PictureOptions& options);
-/// SCENE, -o, --png, --exposure, --float and the common options but those of the reconstruction.
+/// SCENE, -o, those of addImageOptions and the common options but those of the reconstruction.
 void addPictureOptions(CLI::App& command, PictureOptions& options);
 
 /// Where --debug-image rungs writes to.

@@ -7,6 +7,7 @@
 #include "commands/stats_file.h"
 #include "lightfield/field_file.h"
 #include "lightfield/refocus.h"
+#include "reconstruct/auxiliary.h"
 #include "reconstruct/plan.h"
 #include "report/work_monitor.h"
 
@@ -57,7 +58,10 @@ public:
 
     void run(TerminalMonitor& monitor, const Stopwatch& watch) {
         if (distances_.size() == 1) return single(monitor, watch);
-        const std::uint64_t share = file_.field.frame.area() * std::uint64_t(reconstruction_.outputsPerPixel);
+        const std::size_t passes =
+            1 + (options_.picture.auxiliary ? auxiliarySets(!file_.field.auxiliary.empty()).size() : 0);
+        const std::uint64_t share =
+            passes * file_.field.frame.area() * std::uint64_t(reconstruction_.outputsPerPixel);
         monitor.beginStage("focus pull", distances_.size() * share, "outputs");
         WorkMonitor frames(monitor);
         for (std::size_t i = 0; i < distances_.size(); ++i) {
@@ -101,6 +105,9 @@ private:
                                 missing));
         slopeModel_ = field.slopeModel;
         Image image = reconstruct(backend_, field, reconstruction_, options_.compareWithCpu, monitor, report);
+        if (options_.picture.auxiliary)
+            reconstructAuxiliary(image, backend_, field, reconstruction_, options_.compareWithCpu, monitor,
+                                 report);
         image.displayWindow = file_.details.film;
         warnOf(defects, report.emptyPixels, monitor);
         return image;

@@ -1,6 +1,7 @@
 #include "commands/reconstruction.h"
 
 #include "image/png.h"
+#include "reconstruct/auxiliary.h"
 #include "reconstruct/cpu_reconstructor.h"
 #include "reconstruct/stage_compare.h"
 #include "reconstruct/window.h"
@@ -86,6 +87,22 @@ Image reconstruct(Backend& backend, const LightField& field, const ReconstructOp
                   bool compareWithCpu, Monitor& monitor, ReconstructReport& report) {
     return compareWithCpu ? reconstructAndCompare(backend, field, options, monitor, report)
                           : backend.reconstructor->reconstruct(field, options, monitor, report, nullptr);
+}
+
+void reconstructAuxiliary(Image& image, Backend& backend, LightField& field,
+                          const ReconstructOptions& options, bool compareWithCpu, Monitor& monitor,
+                          ReconstructReport& report) {
+    if (field.auxiliary.empty())
+        monitor.warn("the samples have neither albedo nor normals: A and Z alone are written");
+    ReconstructReport ofSets;
+    const Stopwatch watch;
+    for (const AuxiliarySet& set : auxiliarySets(!field.auxiliary.empty())) {
+        takeValues(field, set);
+        addChannels(image, set, reconstruct(backend, field, options, compareWithCpu, monitor, ofSets));
+    }
+    StageStats& stage = report.stage("auxiliary", "outputs");
+    stage.seconds = watch.seconds();
+    stage.items = ofSets.outputs;
 }
 
 void addDetails(nlohmann::ordered_json& details, const CommonOptions& common, const LightField& field,

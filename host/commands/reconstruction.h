@@ -20,6 +20,12 @@ ReconstructOptions reconstructOptions(const CommonOptions& common, const PixelFi
 Image reconstruct(Backend& backend, const LightField& field, const ReconstructOptions& options,
                   bool compareWithCpu, Monitor& monitor, ReconstructReport& report);
 
+/// Adds the auxiliary channels to a picture of `field`, whose radiance they overwrite; a stage of `report`.
+/// Albedo and normals are left out, with a warning, where the samples have none.
+void reconstructAuxiliary(Image& image, Backend& backend, LightField& field,
+                          const ReconstructOptions& options, bool compareWithCpu, Monitor& monitor,
+                          ReconstructReport& report);
+
 /// Adds to `details` how the picture was made.
 void addDetails(nlohmann::ordered_json& details, const CommonOptions& common, const LightField& field,
                 const Backend& backend, const ReconstructReport& report);

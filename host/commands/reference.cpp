@@ -18,7 +18,7 @@ void runReference(PictureOptions options) {
     if (options.output.empty()) options.output = scene.film.filename;
     checkOutputs(options);
     const Tracer tracer(scene, monitor);
-    BruteForce result = bruteForce(scene, tracer, options.common.seed, monitor);
+    BruteForce result = bruteForce(scene, tracer, options.common.seed, monitor, options.auxiliary);
     warnOf(result.defects, result.emptyPixels, monitor);
     result.image.displayWindow = {0, 0, scene.film.xResolution, scene.film.yResolution};
     const nlohmann::ordered_json details = {{"scene", options.input},

@@ -33,11 +33,14 @@ void runRender(RenderOptions options) {
     SampleOptions sampling;
     sampling.samplesPerPixel = scene.pixelSamples;
     sampling.seed = common.seed;
+    sampling.auxiliary = options.picture.auxiliary;
     LightField field = traceLightField(tracer, scene, sampling, monitor);
     const FieldDefects defects = sanitize(field);
 
     ReconstructReport report;
     Image image = reconstruct(backend, field, reconstruction, options.compareWithCpu, monitor, report);
+    if (options.picture.auxiliary)
+        reconstructAuxiliary(image, backend, field, reconstruction, options.compareWithCpu, monitor, report);
     image.displayWindow = {0, 0, scene.film.xResolution, scene.film.yResolution};
     warnOf(defects, report.emptyPixels, monitor);
     nlohmann::ordered_json details = {{"scene", options.picture.input}};

@@ -11,13 +11,15 @@
 namespace slant {
 
 struct BruteForce {
-    Image image;                   ///< of scene.film.crop, channels R, G, B
+    Image image;                   ///< of scene.film.crop, channels R, G, B (and auxiliary ones)
     FieldDefects defects;          ///< bad samples, treated as everywhere
     std::uint64_t emptyPixels = 0; ///< black for want of samples
 };
 
 /// The same pattern and pixel filter as method `box` of scene.pixelSamples samples, at any number of them in
 /// bounded memory. One stage "trace" of the monitor.
-BruteForce bruteForce(const Scene& scene, const Tracer& tracer, std::uint64_t seed, Monitor& monitor);
+/// With `auxiliary` the image has the channels of reconstruct/auxiliary.h, too.
+BruteForce bruteForce(const Scene& scene, const Tracer& tracer, std::uint64_t seed, Monitor& monitor,
+                      bool auxiliary = false);
 
 } // namespace slant
