@@ -71,7 +71,8 @@ TEST(Density, constantRadianceStays) {
         for (LightFieldSample& s : field.samples) s.r = s.g = s.b = 0.7f;
         for (const Method method : {Method::box, Method::full, Method::ladder})
             for (const float value : reconstruct(field, method).image.pixels)
-                ASSERT_NEAR(value, 0.7f, 1e-5f) << counts.name << ", " << nameOf(method);
+                ASSERT_NEAR(value, 0.7f, method == Method::ladder ? 5e-4f : 1e-5f) // the map has 11 bits
+                    << counts.name << ", " << nameOf(method);
     }
 }
 
