@@ -110,7 +110,7 @@ void writeRow(Imf::DeepScanLineOutputFile& file, int row, int samplesPerPixel, s
     const Imath::Box2i window = file.header().dataWindow();
     const std::size_t width = std::size_t(window.max.x - window.min.x + 1);
     std::vector<std::vector<Sample>> pixels;
-    std::vector<unsigned> counts(width, unsigned(samplesPerPixel));
+    std::vector<unsigned> counts(width, unsigned(samplesPerPixel)); // each pixel may have its own
     for (int column = window.min.x; column <= window.max.x; ++column)
         pixels.push_back(samplesOfPixel(column, row, samplesPerPixel, random));
 

@@ -149,6 +149,20 @@ TEST_F(FieldErrors, deepCounts) {
     deepFails(none, "holds no samples");
 }
 
+TEST_F(FieldErrors, pixelsMayDifferInTheirNumberOfSamples) {
+    DeepFile file;
+    file.count = [](int x, int y) { return unsigned(x == 3 && y == 2 ? 0 : 1 + x); };
+    file.write(dir_.file("a.exr"));
+    EXPECT_THAT(runSlant({"info", dir_.file("a.exr")}).out,
+                HasSubstr("56 in 5x4 at (0, 0) pixels, 0 to 5 (2.8 on average)"));
+    EXPECT_THAT(runSlant({"info", dir_.file("a.exr"), "--json"}).out, HasSubstr("\"most\": 5"));
+    for (const char* method : {"box", "window", "full", "auto"}) {
+        const auto result = runSlant({"reconstruct", dir_.file("a.exr"), "-o", dir_.file("out.exr"),
+                                      "--device", "cpu", "--out-spp", "8", "--method", method, "--quiet"});
+        EXPECT_EQ(result.status, 0) << method << ": " << result.err;
+    }
+}
+
 TEST_F(FieldErrors, truncatedFilesOfEveryFormat) {
     const FieldFile file = test::richField(2);
     SilentMonitor monitor;
