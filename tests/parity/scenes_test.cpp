@@ -59,7 +59,8 @@ TEST_P(SceneParity, runsRepeat) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneParity,
-                         testing::Values("spheres", "row", "lights", "foliage", "row-dgauss", "row-fisheye"),
+                         testing::Values("spheres", "row", "lights", "foliage", "indirect", "row-dgauss",
+                                         "row-fisheye"),
                          [](const auto& scene) {
                              std::string name = scene.param;
                              std::ranges::replace(name, '-', '_');

@@ -44,8 +44,8 @@ TEST(Scenes, theGeneratorMakesTheCommittedBytes) {
 }
 
 TEST(Scenes, areSmallAndReadWithoutAWarning) {
-    for (const std::string name :
-         {"spheres", "row", "lights", "foliage", "row-dgauss", "row-wide", "row-telephoto", "row-fisheye"}) {
+    for (const std::string name : {"spheres", "row", "lights", "foliage", "indirect", "row-dgauss",
+                                   "row-wide", "row-telephoto", "row-fisheye"}) {
         const Scene scene = load(name);
         EXPECT_EQ(scene.film.xResolution, 480) << name;
         EXPECT_EQ(scene.film.yResolution, 270) << name;
