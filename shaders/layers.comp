@@ -55,6 +55,8 @@ ivec2 placeAt(Lookup lookup, vec2 x, vec2 uv, float slope) { return ivec2(floor(
 /// their ends, since lavapipe goes through the rest of a round that all invocations have left.
 float settle(Lookup lookup, vec2 cluster, vec2 x, vec2 uv) {
     const vec3 starts = vec3(0.5 * (cluster.x + cluster.y), cluster.y, cluster.x);
+    const float spread = (cluster.y - cluster.x) * max(abs(uv.x), abs(uv.y));
+    const int last = spread * lookup.scale < 1.0 ? 0 : 2; // within a texel one start is as good as three
     uvec2 words;
     for (int start = 0;; ++start) {
         float slope = starts[start];
@@ -67,7 +69,7 @@ float settle(Lookup lookup, vec2 cluster, vec2 x, vec2 uv) {
             if (!found || next == place || step_ == kSettleSteps) break;
             place = next;
         }
-        if (met || start == 2) return slope;
+        if (met || start == last) return slope;
     }
 }
 

@@ -49,8 +49,10 @@ Lookup lookUp(const LayerMap& map, const Cluster& cluster) {
 /// Follows the ray x - slope * uv from a few slopes of the cluster to where the map has that slope.
 float settle(const Lookup& lookup, const Cluster& cluster, vec2 x, vec2 uv) {
     const vec3 starts(0.5f * (cluster.slopeMin + cluster.slopeMax), cluster.slopeMax, cluster.slopeMin);
+    const float spread = (cluster.slopeMax - cluster.slopeMin) * glm::max(glm::abs(uv.x), glm::abs(uv.y));
+    const int last = spread * lookup.scale < 1 ? 0 : 2; // within a texel one start is as good as three
     MapLayer layer;
-    for (int start = 0; start < 3; ++start) {
+    for (int start = 0; start <= last; ++start) {
         layer.slope = starts[start];
         ivec2 place = lookup.placeAt(x, uv, layer.slope);
         bool met = false;
