@@ -1,3 +1,5 @@
+#include "image/png.h"
+#include "support/expect_error.h"
 #include "support/ply_text.h"
 #include "support/scene_text.h"
 #include "support/temp_dir.h"
@@ -211,6 +213,28 @@ TEST(SceneReader, readsOtherFiles) {
     ASSERT_EQ(monitor.warnings.size(), 1u);
     EXPECT_THAT(monitor.warnings[0],
                 testing::EndsWith("m.ply: 1 faces have neither 3 nor 4 vertices and are left out"));
+}
+
+TEST(SceneReader, readsAperturesByNameAndFromImages) {
+    const test::TempDir dir;
+    const std::string file = dir.file("main.pbrt"), image = dir.file("half.png");
+    writePng(image, {2, 1, 1, {255, 0}});
+    writePng(dir.file("black.png"), {1, 1, 1, {0}});
+    SilentMonitor monitor;
+    const auto camera = [&](const std::string& aperture) {
+        test::writeText(file, "Camera \"perspective\" \"string aperture\" \"" + aperture + "\" WorldBegin");
+        return readScene(file, monitor);
+    };
+    EXPECT_EQ(camera("").camera.aperture.name, "disc"); // as in pbrt
+    EXPECT_EQ(camera("star").camera.aperture.rim.size(), 10u);
+    EXPECT_EQ(camera("polygon 6 12").camera.aperture.name, "polygon 6 12");
+    const Scene scene = camera("half.png");
+    EXPECT_EQ(scene.camera.aperture.weights.size(), 512u * 128u);
+    EXPECT_EQ(scene.camera.aperture.weights.at(0), 0); // to the right
+    EXPECT_EQ(scene.camera.aperture.weights.at(256 * 128), 255);
+    EXPECT_THAT(scene.files, testing::ElementsAre(file, image));
+    test::expectError(ErrorCode::badInput, file + ":1:22: the image of the aperture is black",
+                      [&] { camera("black.png"); });
 }
 
 TEST(SceneReader, warnsWithThePlace) {
