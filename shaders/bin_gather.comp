@@ -23,11 +23,11 @@ void main() {
         return;
     }
     const int index = int(texelFetch(indices, int(i)).x);
-    const vec3 position = texelFetch(samplePositions, index).xyz;
+    const vec4 position = texelFetch(samplePositions, index); // the last: excess of area
     const int block = blockOf(push.occlusion, position.xy, position.z, push.grid.origin);
     const vec4 radiance = texelFetch(sampleRadiances, index);
-    const float weight = visibilityWeight(push.occlusion, texelFetch(stopped, block).x, radiance.w);
-    imageStore(positions, int(i), vec4(position, weight));
+    const float weight = visibilityWeight(push.occlusion, texelFetch(stopped, block).x, radiance.w / sqrt(1.0 + position.w));
+    imageStore(positions, int(i), vec4(position.xyz, weight));
     imageStore(radiances, int(i), radiance);
     const uint cells = uint(push.grid.cellsPerBrick * push.grid.cellsPerBrick);
     const uint brick = texelFetch(keys, int(i)).x / cells;

@@ -26,7 +26,7 @@ void main() {
     const vec2 p = place.xy - slope * place.zw;
     const int index = int(push.firstSample + i);
     const bool kept = reaches(p, slope, vec2(push.regionMin), vec2(push.regionMax), push.marginPx);
-    imageStore(positions, index, vec4(p, slope, 0.0));
+    imageStore(positions, index, vec4(p, slope, radiance.w));
     const float narrowing = kept ? narrowingAt(push.density, p, slope, push.grid.radiusPx) : 1.0;
     imageStore(radiances, index, vec4(radiance.rgb, narrowing));
     imageStore(keys, index, uvec4(kept ? sortKey(push.grid, p, slope) : kNotBinned));

@@ -64,7 +64,7 @@ void main() {
     for (int reach = 1; reach <= 2 && sweep.count > 1; ++reach) {
         sweep = Sweep(true, push.radiusPx, mostNarrowing, push.grid.surfaceGap, fullWeight, slopeCode(push.grid),
                       noSurface(), 0, uvec4(kNoLayerWords, kNoLayerWords));
-        complete = forEachCandidate(push.grid, Output(p, vec2(0.0), 0.0, 0.0), float(reach) * push.radiusPx,
+        complete = forEachCandidate(push.grid, outputOnFilm(p, vec2(0.0), 0.0, 0.0), float(reach) * push.radiusPx,
                                     mostNarrowing, begin, end, sweep) && complete;
         if (sweep.surface.count > 0) close(sweep, true);
     }

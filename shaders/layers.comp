@@ -121,7 +121,7 @@ void main() {
     const ivec2 pixel = push.outputs.regionOrigin + position;
     vec3 sum = vec3(0.0);
     for (int i = 0; i < groupSize; ++i) {
-        Output o = Output(vec2(pixel) + 0.5, vec2(0.0), 0.0, kWholePixel);
+        Output o = outputOnFilm(vec2(pixel) + 0.5, vec2(0.0), 0.0, kWholePixel);
         if (sharp) {
             o = placed(pixel, texelFetch(pattern, firstOutput + i), seedOf(pixel, push.outputs.seed));
             sum = vec3(0.0);

@@ -8,7 +8,11 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform utextureBuffer bricks;
 layout(set = 0, binding = 1) uniform textureBuffer lensBoxes;
 layout(set = 0, binding = 2, r32ui) uniform writeonly uimageBuffer counts;
+layout(set = 0, binding = 3) uniform textureBuffer lensTiles;
 layout(push_constant) uniform Push { OutputPush push; };
+
+float lensTileBoundAt(int i) { return texelFetch(lensTiles, i).x; }
+#include "lib/tiles_of_brick.glsl"
 
 void main() {
     const uint i = linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
@@ -16,8 +20,9 @@ void main() {
     uint tiles = 0u;
     if (i < push.count) {
         const Brick brick = brickOf(texelFetch(bricks, int(i % push.brickTotal)));
-        const vec4 box = texelFetch(lensBoxes, int(push.firstGroup + i / push.brickTotal));
-        const ivec4 range = tilesSeeing(brick, push.grid, push.outputs, box, push.radiusPx);
+        const uint group = i / push.brickTotal;
+        const vec4 box = texelFetch(lensBoxes, int(push.firstGroup + group));
+        const ivec4 range = tilesOfBrick(brick, push.grid, push.outputs, box, int(group), push.radiusPx);
         const ivec2 size = max(range.zw - range.xy, ivec2(0));
         tiles = uint(size.x * size.y);
     }

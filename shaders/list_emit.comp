@@ -11,7 +11,11 @@ layout(set = 0, binding = 1) uniform textureBuffer lensBoxes;
 layout(set = 0, binding = 2) uniform utextureBuffer offsets; // of (group, brick), and the total
 layout(set = 0, binding = 3, r32ui) uniform writeonly uimageBuffer lists;
 layout(set = 0, binding = 4, r32ui) uniform writeonly uimageBuffer listIds;
+layout(set = 0, binding = 5) uniform textureBuffer lensTiles;
 layout(push_constant) uniform Push { OutputPush push; };
+
+float lensTileBoundAt(int i) { return texelFetch(lensTiles, i).x; }
+#include "lib/tiles_of_brick.glsl"
 
 uint keyAt(uint i) { return texelFetch(offsets, int(i)).x; }
 #include "lib/lower_bound.glsl"
@@ -23,7 +27,7 @@ void main() {
     const uint group = pair / push.brickTotal, brick = pair - group * push.brickTotal;
     const vec4 box = texelFetch(lensBoxes, int(push.firstGroup + group));
     const ivec4 range =
-        tilesSeeing(brickOf(texelFetch(bricks, int(brick))), push.grid, push.outputs, box, push.radiusPx);
+        tilesOfBrick(brickOf(texelFetch(bricks, int(brick))), push.grid, push.outputs, box, int(group), push.radiusPx);
     const int place = int(i - keyAt(pair)), width = range.z - range.x;
     const ivec2 tile = range.xy + ivec2(place % width, place / width);
     const ivec2 tiles = push.outputs.tileCount;

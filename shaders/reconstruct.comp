@@ -17,7 +17,11 @@ layout(set = 0, binding = 12) uniform utextureBuffer leftPixels; // of each list
 layout(set = 0, binding = 13) uniform textureBuffer apertureTable;
 
 float apertureAt(int i) { return texelFetch(apertureTable, i).x; }
+layout(set = 0, binding = 14) uniform textureBuffer lensMap;
+
+vec4 lensMapAt(int texel) { return texelFetch(lensMap, texel); }
 #include "lib/output_pattern.glsl"
+#include "lib/see_through.glsl"
 
 struct Sweep {
     bool running;
@@ -70,19 +74,26 @@ void main() {
     if (position.x >= outputs.regionSize.x || position.y >= outputs.regionSize.y) return;
 
     const int index = push.firstOutput + int(k);
-    const Output o = outputAt(outputs.regionOrigin + position, index, texelFetch(pattern, index), push.lensCells,
-                              push.lensScale, outputs.seed);
+    Output o = outputAt(outputs.regionOrigin + position, index, texelFetch(pattern, index), push.lensCells,
+                        push.lensScale, outputs.seed);
+    const uint slot = (k * uint(outputs.regionSize.y) + uint(position.y)) * uint(outputs.regionSize.x) + uint(position.x);
+    if (kThroughLens) {
+        seeThrough(o);
+        if (!(o.weight > 0.0)) { // the film is dark
+            imageStore(dense, int(slot), vec4(0.0, 0.0, 0.0, o.positionCode));
+            return;
+        }
+    }
     Sweep sweep = Sweep(true, 1.0 / grid.radiusPx, grid.surfaceGap, vec3(0.0), 0.0, -kInfinity, noHull());
     const bool complete = forEachCandidate(grid, o, grid.radiusPx, kAnyNarrowing, texelFetch(listStart, int(list)).x,
                                            texelFetch(listStart, int(list) + 1).x, sweep);
-    const uint slot = (k * uint(outputs.regionSize.y) + uint(position.y)) * uint(outputs.regionSize.x) + uint(position.x);
     if (!complete) {
         imageStore(overflowList, int(imageAtomicAdd(counters, int(kOverflowCount), 1u)), uvec4(slot));
         return;
     }
     const bool taken = sweep.running ? sweep.weightSum > 0.0 : isSolid(sweep);
     if (taken)
-        imageStore(dense, int(slot), vec4(sweep.sum / sweep.weightSum, o.positionCode));
+        imageStore(dense, int(slot), vec4(o.weight * (sweep.sum / sweep.weightSum), o.positionCode));
     else
         imageStore(visibilityList, int(imageAtomicAdd(counters, int(kVisibilityCount), 1u)), uvec4(slot));
 }

@@ -17,7 +17,11 @@ layout(set = 0, binding = 11, r32ui) uniform writeonly uimageBuffer overflowList
 layout(set = 0, binding = 12) uniform textureBuffer apertureTable;
 
 float apertureAt(int i) { return texelFetch(apertureTable, i).x; }
+layout(set = 0, binding = 13) uniform textureBuffer lensMap;
+
+vec4 lensMapAt(int texel) { return texelFetch(lensMap, texel); }
 #include "lib/output_pattern.glsl"
+#include "lib/see_through.glsl"
 
 struct Sweep {
     bool running;
@@ -52,8 +56,9 @@ void main() {
     const ivec2 position = ivec2(pixel % size.x, pixel / size.x);
     const ivec2 tile = position / kTileSize;
     const int index = push.firstOutput + int(k);
-    const Output o = outputAt(outputs.regionOrigin + position, index, texelFetch(pattern, index), push.lensCells,
-                              push.lensScale, outputs.seed);
+    Output o = outputAt(outputs.regionOrigin + position, index, texelFetch(pattern, index), push.lensCells,
+                        push.lensScale, outputs.seed);
+    if (kThroughLens) seeThrough(o);
     const int list =
         ((int(k) >> push.groupBits) * outputs.tileCount.y + tile.y) * outputs.tileCount.x + tile.x;
     const float widening = push.radiusPx / push.grid.radiusPx;
@@ -69,6 +74,6 @@ void main() {
     } else {
         Layers layers = sweep.layers;
         if (sweep.surface.count > 0) layers.rgb += layers.transmittance * meanOf(sweep.surface);
-        imageStore(dense, int(slot), vec4(layers.rgb, o.positionCode));
+        imageStore(dense, int(slot), vec4(o.weight * layers.rgb, o.positionCode));
     }
 }

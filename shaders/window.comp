@@ -16,10 +16,13 @@ layout(set = 0, binding = 4, r32ui) uniform uimageBuffer counters;
 layout(set = 0, binding = 5, r32ui) uniform writeonly uimageBuffer overflowList;
 layout(set = 0, binding = 6) uniform textureBuffer apertureTable;
 layout(set = 0, binding = 7) uniform utextureBuffer pixelStart;
+layout(set = 0, binding = 8) uniform textureBuffer lensMap;
 layout(push_constant) uniform Push { WindowPush push; };
 
 float apertureAt(int i) { return texelFetch(apertureTable, i).x; }
+vec4 lensMapAt(int texel) { return texelFetch(lensMap, texel); }
 #include "lib/output_pattern.glsl"
+#include "lib/see_through.glsl"
 
 struct WindowSurface {
     int count;
@@ -38,7 +41,8 @@ struct WindowCandidate {
 
 WindowCandidate candidateAt(uint record, Output o) {
     const vec4 position = texelFetch(positions, int(record));
-    const vec2 offset = position.xy + position.z * o.uv - o.xy;
+    vec2 offset = position.xy + position.z * o.uv - o.xy;
+    if (kThroughLens) offset = onFilm(o, offset);
     return WindowCandidate(offset, offset.x * offset.x + offset.y * offset.y, position.z, position.w, record);
 }
 
@@ -69,8 +73,14 @@ void main() {
     const uint k = slot / (size.x * size.y), place = slot - k * (size.x * size.y);
     const ivec2 pixel = outputs.regionOrigin + ivec2(place % size.x, place / size.x);
     const int index = push.firstOutput + int(k);
-    const Output o = outputAt(pixel, index, texelFetch(pattern, index), push.lensCells,
-                              push.lensScale, outputs.seed);
+    Output o = outputAt(pixel, index, texelFetch(pattern, index), push.lensCells, push.lensScale, outputs.seed);
+    if (kThroughLens) {
+        seeThrough(o);
+        if (!(o.weight > 0.0)) { // the film is dark
+            imageStore(dense, int(slot), vec4(0.0, 0.0, 0.0, o.positionCode));
+            return;
+        }
+    }
 
     float slopes[kMaxWindowCandidates];
     uint records[kMaxWindowCandidates];
@@ -106,7 +116,7 @@ void main() {
         const bool filled = search.fill != 0u && nearest2 < kInfinity;
         count(filled ? kFilledCount : kHoleCount);
         const vec3 rgb = filled ? texelFetch(radiances, int(nearest)).rgb : vec3(0.0);
-        imageStore(dense, int(slot), vec4(rgb, o.positionCode));
+        imageStore(dense, int(slot), vec4(o.weight * rgb, o.positionCode));
         return;
     }
 
@@ -141,5 +151,5 @@ void main() {
     taken = taken || surrounds(surface.hull);
     if (taken ? surface.count < found : front.count > 0) count(kVisibilityCount);
     if (!taken && front.count > 0) surface = front;
-    imageStore(dense, int(slot), vec4(surface.sum / surface.weightSum, o.positionCode));
+    imageStore(dense, int(slot), vec4(o.weight * (surface.sum / surface.weightSum), o.positionCode));
 }

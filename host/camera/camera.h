@@ -29,8 +29,10 @@ public:
         return lens ? lens->aperture() : Aperture();
     }
     /// The lens, if the camera is of that kind.
-    CompoundLens* compoundLens() { return std::get_if<CompoundLens>(&kind_); }
     const CompoundLens* compoundLens() const { return std::get_if<CompoundLens>(&kind_); }
+
+    /// Empty, but through a lens of many surfaces.
+    LensMap lensMap() const { return compoundLens() ? compoundLens()->lensMap() : LensMap(); }
 
 private:
     using Kind = std::variant<ThinLens, CompoundLens>;

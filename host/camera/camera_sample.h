@@ -1,7 +1,5 @@
 // What a camera makes of one point of the sampling pattern.
 #pragma once
-#include "camera/slope_model.h"
-
 #include <glm/glm.hpp>
 
 namespace slant {
@@ -13,9 +11,8 @@ struct CameraRay {
 
 struct CameraSample {
     CameraRay ray;
-    glm::vec2 lens;   ///< lens position (u, v) in the unit disc: to the right and down, like the raster
-    float weight;     ///< of the radiance along the ray; 0: no light gets through, and there is no ray
-    SlopeModel slope; ///< of the trajectories of points on the ray
+    glm::vec2 lens; ///< lens position (u, v) in the unit disc: to the right and down, like the raster
+    float weight;   ///< of the radiance along the ray; 0: no light gets through, and there is no ray
 };
 
 } // namespace slant

@@ -1,12 +1,11 @@
 #include "camera/compound_lens.h"
 
 #include "base/error.h"
-#include "camera/slope_residual.h"
+#include "camera/disc.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace slant {
 namespace {
@@ -17,7 +16,7 @@ constexpr double kFilmReach = 2;
 /// Rays that leave the lens at a right angle to its axis or backwards have no depth.
 constexpr double kLeastForward = 1e-3;
 /// Where interpolation puts a ray outside the pupil, it is taken this much nearer to the centre, and so on.
-constexpr double kInwards = 0.98;
+constexpr float kInwards = 0.98f;
 constexpr int kInwardSteps = 8;
 
 } // namespace
@@ -29,8 +28,7 @@ CompoundLens::CompoundLens(const RealisticCamera& camera, const MovingTransform&
       mmPerPixel_(double(film.diagonalMm) / std::hypot(film.xResolution, film.yResolution)),
       pupil_(lens_, filmZ_, kFilmReach * double(film.diagonalMm) / 2),
       depthOrigin_(std::clamp(lens_.entrancePupil().z, filmZ_, lens_.frontVertex())),
-      focusDepth_(camera.focusDistance - (depthOrigin_ - filmZ_) / kMillimetres), nearDepth_(focusDepth_ / 2),
-      farDepth_(std::numeric_limits<double>::infinity()),
+      focusDepth_(camera.focusDistance - (depthOrigin_ - filmZ_) / kMillimetres),
       filmCentre_(film.xResolution / 2.0, film.yResolution / 2.0) {
     if (worldFromCamera.moves()) throw badInput({}, "camera: a moving camera is not supported");
     if (!(pupil_.radius() > 0))
@@ -41,7 +39,16 @@ CompoundLens::CompoundLens(const RealisticCamera& camera, const MovingTransform&
     down_ = -glm::dvec3(m[1]) / kMillimetres;
     forward_ = glm::dvec3(m[2]) / kMillimetres;
     centre_ = glm::dvec3(m[3]) + forward_ * (depthOrigin_ - filmZ_);
-    slopes_ = fitSlopes(*this, nearDepth_, farDepth_);
+
+    const glm::dvec2 rim = pupil_.node(0, 0, PupilNodes::kDistances) / pupil_.radius();
+    const auto axis = path(filmCentre_, {0, 0}), edge = path(filmCentre_, rim);
+    if (!axis || !edge)
+        throw badInput({camera.lens.path}, "the lens forms no image in the middle of the film");
+    pixelsPerTangent_ = focusDepth_ / axis->change[0].at(focusDepth_).x;
+    pupilRadius_ = glm::length(edge->line.position);
+    const double c1 = -pixelsPerTangent_ * pupilRadius_;
+    slopeModel_ = {float(c1), float(-c1 / focusDepth_)};
+    lensMap_ = makeLensMap(*this);
 }
 
 /// Both in the plane across the axis, in millimetres.
@@ -63,8 +70,10 @@ bool CompoundLens::traceWithDerivatives(LensRay& ray, std::array<LensRayDerivati
     return lens_.traceFromFilm(ray, derivatives);
 }
 
-ScenePath CompoundLens::scenePath(const LensRay& ray,
-                                  const std::array<LensRayDerivative, 4>& derivatives) const {
+std::optional<ScenePath> CompoundLens::path(glm::dvec2 raster, glm::dvec2 pupil) const {
+    LensRay ray = filmRay((filmCentre_ - raster) * mmPerPixel_, pupil * pupil_.radius());
+    std::array<LensRayDerivative, 4> derivatives;
+    if (!traceWithDerivatives(ray, derivatives) || ray.direction.z < kLeastForward) return std::nullopt;
     const glm::dvec2 tangent = glm::dvec2(ray.direction) / ray.direction.z;
     const double t = (depthOrigin_ - ray.origin.z) / ray.direction.z;
     ScenePath path;
@@ -78,82 +87,29 @@ ScenePath CompoundLens::scenePath(const LensRay& ray,
     return path;
 }
 
-std::optional<ScenePath> CompoundLens::path(glm::dvec2 raster, glm::dvec2 lens) const {
-    LensRay ray = filmRay((filmCentre_ - raster) * mmPerPixel_, lens * pupil_.radius());
-    std::array<LensRayDerivative, 4> derivatives;
-    if (!traceWithDerivatives(ray, derivatives) || ray.direction.z < kLeastForward) return std::nullopt;
-    return scenePath(ray, derivatives);
-}
-
 CameraSample CompoundLens::sample(glm::vec2 raster, glm::vec2 square) const {
-    const CameraSample dark{{glm::vec3(centre_), glm::vec3(forward_ * kMillimetres)}, glm::vec2(0), 0, {}};
+    const CameraSample dark{{glm::vec3(centre_), glm::vec3(forward_ * kMillimetres)}, glm::vec2(0), 0};
     const glm::dvec2 offset = (glm::dvec2(raster) - filmCentre_) * mmPerPixel_;
-    const double r = glm::length(offset);
+    const double r = glm::length(offset), irradiance = pupil_.irradiance(r);
+    if (!(irradiance > 0)) return dark;
     const glm::dvec2 radial = r > 0 ? offset / r : glm::dvec2(1, 0);
-    const ExitPupil::Point point = pupil_.sample(r, square);
-    if (!(point.area > 0)) return dark;
-
-    glm::dvec2 fromCentre = point.position - point.centre;
-    for (int step = 0; step < kInwardSteps; ++step, fromCentre *= kInwards) {
-        const glm::dvec2 p = point.centre + fromCentre;
-        const glm::dvec2 pupil(radial.x * p.x - radial.y * p.y, radial.y * p.x + radial.x * p.y);
-        const LensRay filmSide = filmRay(-offset, pupil);
-        LensRay ray = filmSide;
-        std::array<LensRayDerivative, 4> derivatives;
-        const bool exact = rung_ == SlopeRung::sample;
-        if (!(exact ? traceWithDerivatives(ray, derivatives) : lens_.traceFromFilm(ray))) continue;
+    const auto turned = [](glm::dvec2 v, glm::dvec2 by) {
+        return glm::dvec2(v.x * by.x - v.y * by.y, v.x * by.y + v.y * by.x);
+    };
+    glm::vec2 lens = concentricDisc(square.x, square.y);
+    for (int step = 0; step < kInwardSteps; ++step, lens *= kInwards) {
+        const glm::dvec2 inFrame = turned(lens, {radial.x, -radial.y});
+        LensRay ray = filmRay(-offset, turned(pupil_.at(r, inFrame), radial));
+        if (!lens_.traceFromFilm(ray)) continue;
         if (ray.direction.z < kLeastForward) return dark;
-
-        const double cosine = filmSide.direction.z, z = pupil_.planeZ() - filmZ_;
         const glm::dvec3 direction = ray.direction / ray.direction.z;
         const glm::dvec3 origin = ray.origin + (depthOrigin_ - ray.origin.z) * direction;
         const auto world = [&](glm::dvec3 v) { return right_ * v.x + down_ * v.y; };
         return {{glm::vec3(centre_ + world(origin)), glm::vec3((forward_ + world(direction)) * kMillimetres)},
-                glm::vec2(pupil / pupil_.radius()),
-                float(cosine * cosine * cosine * cosine * point.area / (z * z)),
-                exact ? isotropicSlope(scenePath(ray, derivatives))
-                      : slopes_.at(rung_, r / mmPerPixel_).mean()};
+                lens,
+                float(irradiance)};
     }
     return dark;
-}
-
-void CompoundLens::chooseSlopes(double nearDepth, double farDepth, double tolerancePx) {
-    nearDepth_ = nearDepth;
-    farDepth_ = farDepth;
-    slopes_ = fitSlopes(*this, nearDepth, farDepth);
-    rung_ = selectRung(slopeResiduals(*this, nearDepth, farDepth), tolerancePx);
-}
-
-SlopeModel CompoundLens::slopeModel() const {
-    return slopes_.at(SlopeRung::lens, 0).mean();
-}
-
-// A point seen at depth w stays where it is while the lens position moves by du: with Q = position + w *
-// tangent, dQ/dx dx + dQ/du du = 0. Below, q = 1 / w and X + q X' = dQ/dx / w, U likewise.
-
-glm::dmat2 slopeMatrix(const ScenePath& path, double inverseDepth) {
-    const auto column = [&](std::size_t i) {
-        return path.change[i].tangent + inverseDepth * path.change[i].position;
-    };
-    return -(glm::inverse(glm::dmat2(column(0), column(1))) * glm::dmat2(column(2), column(3)));
-}
-
-SlopeModel isotropicSlope(const ScenePath& path) {
-    const auto det = [](glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; };
-    // By Cramer's rule trace(X^-1 U) = (det(U_0, X_1) + det(X_0, U_1)) / det(X_0, X_1), each a polynomial in
-    // q.
-    std::array<double, 3> top{}, bottom{};
-    const auto add = [&](std::array<double, 3>& sum, std::size_t i, std::size_t j, double factor) {
-        const ScenePath::Line &a = path.change[i], &b = path.change[j];
-        sum[0] += factor * det(a.tangent, b.tangent);
-        sum[1] += factor * (det(a.tangent, b.position) + det(a.position, b.tangent));
-        sum[2] += factor * det(a.position, b.position);
-    };
-    add(top, 2, 1, -0.5);
-    add(top, 0, 3, -0.5);
-    add(bottom, 0, 1, 1);
-    return {float(top[1] / bottom[0]), float(top[0] / bottom[0]), float(top[2] / bottom[0]),
-            float(bottom[1] / bottom[0]), float(bottom[2] / bottom[0])};
 }
 
 } // namespace slant

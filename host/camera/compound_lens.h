@@ -1,18 +1,16 @@
 // pbrt-v4's realistic camera: the film behind a lens of many surfaces, through which every ray is followed.
 //
-// Lens coordinates are places on the exit pupil's plane. Between lens and film rays are straight, so the rays
-// of a sharply imaged point cross film and pupil plane in places that are linear in each other, whatever
-// happens within the lens: trajectories are straight up to the lens's aberrations. They count from the axis,
-// in units of the farthest place that the pupil reaches from any part of the film.
-//
-// Rays are chosen evenly over the true pupil of each film point, and their radiance is multiplied by the
-// irradiance that the whole pupil gives there, cos^4 area / distance^2: the expectation of pbrt's estimate,
-// without the third of its rays that a lens blocks.
+// Lens positions are places in the unit disc, which stands for the true pupil of each film point, the light
+// that comes through it spread evenly (exit_pupil.h). So all rays of a film point have the same weight, the
+// irradiance that the whole pupil gives it: the expectation of pbrt's estimate cos^4 area / distance^2,
+// without the third of its rays that a lens blocks. What the trajectories of scene points are like is for the
+// lens map to say (lens_map.h).
 #pragma once
 #include "camera/camera_sample.h"
 #include "camera/exit_pupil.h"
+#include "camera/lens_map.h"
 #include "camera/lens_system.h"
-#include "camera/slope_fit.h"
+#include "camera/slope_model.h"
 
 #include <optional>
 
@@ -29,12 +27,6 @@ struct ScenePath {
     std::array<Line, 4> change;
 };
 
-/// How the raster position changes with the lens position at which a point of the ray is seen, `inverseDepth`
-/// = 1 / depth, in pixels per lens radius.
-glm::dmat2 slopeMatrix(const ScenePath& path, double inverseDepth);
-/// The mean of the slopes along two directions at a right angle: half the trace of that matrix.
-SlopeModel isotropicSlope(const ScenePath& path);
-
 /// Depths count from the entrance pupil, but at most from the front vertex, in camera space (metres).
 class CompoundLens {
 public:
@@ -44,19 +36,19 @@ public:
     /// `raster` in pixels, y downwards, on the film or beside it; `square` in [0, 1)^2.
     CameraSample sample(glm::vec2 raster, glm::vec2 square) const;
 
-    /// Of the lens as a whole.
-    SlopeModel slopeModel() const;
-    /// Measures how well each rung of the ladder predicts trajectories of points from `nearDepth` to
-    /// `farDepth` (may be infinite), and has samples carry slopes of the lowest one that is within the
-    /// tolerance by its 95th percentile, or else of the best.
-    void chooseSlopes(double nearDepth, double farDepth, double tolerancePx = kSlopeTolerancePx);
-    SlopeRung slopeRung() const { return rung_; }
-    /// What was told to chooseSlopes; before, from half the distance in focus to infinity.
-    double nearDepth() const { return nearDepth_; }
-    double farDepth() const { return farDepth_; }
+    /// Of trajectories on the scene's side: c1 / depth + c2.
+    SlopeModel slopeModel() const { return slopeModel_; }
+    const LensMap& lensMap() const { return lensMap_; }
+    /// Where a ray meets the plane in focus, in pixels from the film's centre, and that of the entrance
+    /// pupil, in its radii: what the lens map tabulates.
+    glm::dvec2 scenicPlace(const ScenePath::Line& line) const {
+        return pixelsPerTangent_ / focusDepth_ * line.at(focusDepth_);
+    }
+    glm::dvec2 scenicPupil(const ScenePath::Line& line) const { return line.position / pupilRadius_; }
 
-    /// The ray through a raster position and a lens position; nothing if it is blocked.
-    std::optional<ScenePath> path(glm::dvec2 raster, glm::dvec2 lens) const;
+    /// The ray through a raster position and a place on the exit pupil's plane, in units of its radius;
+    /// nothing if it is blocked. `change` is along these.
+    std::optional<ScenePath> path(glm::dvec2 raster, glm::dvec2 pupil) const;
 
     const LensSystem& lens() const { return lens_; }
     const ExitPupil& pupil() const { return pupil_; }
@@ -65,20 +57,19 @@ public:
     double focusDepth() const { return focusDepth_; }   ///< metres
     double millimetresPerPixel() const { return mmPerPixel_; }
     glm::dvec2 filmCentre() const { return filmCentre_; } ///< raster
-    const SlopeFit& slopeFit() const { return slopes_; }
 
 private:
     LensRay filmRay(glm::dvec2 film, glm::dvec2 pupil) const;
     bool traceWithDerivatives(LensRay& ray, std::array<LensRayDerivative, 4>& derivatives) const;
-    ScenePath scenePath(const LensRay& ray, const std::array<LensRayDerivative, 4>& derivatives) const;
 
     LensSystem lens_;
     double filmZ_, mmPerPixel_;
     ExitPupil pupil_;
-    double depthOrigin_, focusDepth_, nearDepth_, farDepth_;
+    double depthOrigin_, focusDepth_;
     glm::dvec2 filmCentre_;
-    SlopeFit slopes_;
-    SlopeRung rung_ = SlopeRung::filmRadius;
+    double pixelsPerTangent_ = 0, pupilRadius_ = 0; ///< on the axis, the latter in metres
+    SlopeModel slopeModel_;
+    LensMap lensMap_;
     // World space: the place of depth 0 on the axis, and a millimetre of lens space along its axes.
     glm::dvec3 centre_{0}, right_{0}, down_{0}, forward_{0};
 };

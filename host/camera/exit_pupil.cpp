@@ -1,6 +1,7 @@
 #include "camera/exit_pupil.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -9,22 +10,20 @@
 namespace slant {
 namespace {
 
-constexpr int kFilmRadii = 64;
 constexpr int kFirstScan = 64, kScan = 16; ///< points along one side of a coarse search
 constexpr int kDirections = 64;            ///< from the centre to the rim, over half a turn
+constexpr int kRadialSteps = 16;
 constexpr int kRoughBisections = 8, kBisections = 22;
+/// So that rounding does not carry a ray of the rim over it.
+constexpr double kInside = 1 - 1e-9;
 /// A pupil further off than this many distances from film to lens stands for one at infinity.
 constexpr double kFarthestPlane = 1000;
+constexpr int kNodes = (PupilNodes::kTurns + 1) * (PupilNodes::kDistances + 1);
 
 /// Half a pupil in polar coordinates around a centre on the axis of symmetry.
 struct HalfOutline {
     double centre = 0;
     std::vector<double> radii; ///< at angles pi * i / kDirections
-
-    glm::dvec2 at(std::size_t i) const {
-        const double angle = std::numbers::pi * double(i) / kDirections;
-        return {centre + radii[i] * std::cos(angle), radii[i] * std::sin(angle)};
-    }
 };
 
 /// Rays from one film point (-r, 0), through points of the plane z = 0.
@@ -35,6 +34,13 @@ public:
     bool passes(glm::dvec2 p) const {
         LensRay ray{film_, glm::normalize(glm::dvec3(p, 0) - film_)};
         return lens_.traceFromFilm(ray);
+    }
+
+    /// Irradiance that a square millimetre of the plane brings: cos^4 / distance^2.
+    double light(glm::dvec2 p) const {
+        const glm::dvec3 way = glm::dvec3(p, 0) - film_;
+        const double z2 = film_.z * film_.z, square = glm::dot(way, way);
+        return z2 / (square * square);
     }
 
     /// Centre of what passes among points spread over a box; half of it, for the sake of symmetry.
@@ -53,19 +59,21 @@ public:
         return sum / double(count);
     }
 
-    /// From a point within the pupil outwards.
+    /// Distance from a point within the pupil to its rim, a little less than true.
+    double rim(double centre, double angle, double reach, int bisections) const {
+        const glm::dvec2 outwards(std::cos(angle), std::sin(angle));
+        double inside = 0, outside = reach;
+        for (int step = 0; step < bisections; ++step) {
+            const double middle = (inside + outside) / 2;
+            (passes(glm::dvec2(centre, 0) + middle * outwards) ? inside : outside) = middle;
+        }
+        return kInside * inside;
+    }
+
     HalfOutline outline(double centre, double reach, int bisections) const {
         HalfOutline half{centre, {}};
-        for (int i = 0; i <= kDirections; ++i) {
-            const double angle = std::numbers::pi * i / kDirections;
-            const glm::dvec2 outwards(std::cos(angle), std::sin(angle));
-            double inside = 0, outside = reach;
-            for (int step = 0; step < bisections; ++step) {
-                const double middle = (inside + outside) / 2;
-                (passes(glm::dvec2(centre, 0) + middle * outwards) ? inside : outside) = middle;
-            }
-            half.radii.push_back(inside);
-        }
+        for (int i = 0; i <= kDirections; ++i)
+            half.radii.push_back(rim(centre, std::numbers::pi * i / kDirections, reach, bisections));
         return half;
     }
 
@@ -74,60 +82,108 @@ private:
     glm::dvec3 film_;
 };
 
-/// Area of the sectors up to each direction, of half a pupil, and the centre of mass.
-std::vector<double> sectorAreas(const HalfOutline& half, double& centreOfMass) {
-    std::vector<double> sums{0};
-    double moment = 0;
-    for (std::size_t i = 0; i < kDirections; ++i) {
-        const glm::dvec2 a = half.at(i), b = half.at(i + 1);
-        // Between two directions the radius squared is taken to be linear: exact for a circle to second
-        // order.
-        const double area = std::numbers::pi / kDirections *
-                            (half.radii[i] * half.radii[i] + half.radii[i + 1] * half.radii[i + 1]) / 4;
-        sums.push_back(sums.back() + area);
-        moment += area * (half.centre + a.x + b.x) / 3;
+/// Centre of mass.
+double middleOf(const HalfOutline& half) {
+    double area = 0, moment = 0;
+    for (int i = 0; i <= kDirections; ++i) {
+        const double end = i == 0 || i == kDirections ? 0.5 : 1, r = half.radii[std::size_t(i)];
+        area += end * r * r / 2;
+        moment += end * r * r * r / 3 * std::cos(std::numbers::pi * i / kDirections);
     }
-    centreOfMass = sums.back() > 0 ? moment / sums.back() : half.centre;
+    return half.centre + (area > 0 ? moment / area : 0);
+}
+
+/// The light that comes in along one direction from the centre, in a sector of one radian.
+class Sector {
+public:
+    Sector(const Probe& probe, double centre, double angle, double rim)
+        : centre_(centre, 0), outwards_(std::cos(angle), std::sin(angle)), step_(rim / kRadialSteps) {
+        for (std::size_t k = 0; k < kRadialSteps; ++k) {
+            density_[k] = probe.light(at((double(k) + 0.5) * step_));
+            sums_[k + 1] = sums_[k] + density_[k] * step_ * step_ * (double(k) + 0.5);
+        }
+    }
+    double total() const { return sums_.back(); }
+
+    /// The point up to which a share of the light lies nearer to the centre.
+    glm::dvec2 upTo(double share) const {
+        const double target = share * total();
+        std::size_t k = 0;
+        while (k + 1 < kRadialSteps && sums_[k + 1] < target) ++k;
+        const double inner = double(k) * step_;
+        const double outer2 = inner * inner + (density_[k] > 0 ? 2 * (target - sums_[k]) / density_[k] : 0);
+        return at(std::sqrt(outer2));
+    }
+
+private:
+    glm::dvec2 at(double radius) const { return centre_ + radius * outwards_; }
+
+    glm::dvec2 centre_, outwards_;
+    double step_;
+    std::array<double, kRadialSteps> density_{};
+    std::array<double, kRadialSteps + 1> sums_{};
+};
+
+/// Light of the sectors up to each direction, of half a pupil.
+std::vector<double> lightUpTo(const Probe& probe, const HalfOutline& half) {
+    std::vector<double> sums{0};
+    double before = 0;
+    for (int i = 0; i <= kDirections; ++i) {
+        const double angle = std::numbers::pi * i / kDirections;
+        const double here = Sector(probe, half.centre, angle, half.radii[std::size_t(i)]).total();
+        if (i > 0) sums.push_back(sums.back() + std::numbers::pi / kDirections * (before + here) / 2);
+        before = here;
+    }
     return sums;
+}
+
+std::vector<glm::dvec2> nodesOf(const Probe& probe, const HalfOutline& half,
+                                const std::vector<double>& light) {
+    std::vector<glm::dvec2> nodes;
+    nodes.reserve(kNodes);
+    std::size_t i = 0;
+    for (int turn = 0; turn <= PupilNodes::kTurns; ++turn) {
+        const glm::dvec2 direction = PupilNodes::direction(turn);
+        const double target = light.back() * std::atan2(direction.y, direction.x) / std::numbers::pi;
+        while (i + 1 < kDirections && light[i + 1] < target) ++i;
+        const double f = std::clamp((target - light[i]) / (light[i + 1] - light[i]), 0.0, 1.0);
+        const double angle = std::numbers::pi * (double(i) + f) / kDirections;
+        const double reach = 1.5 * std::max(half.radii[i], half.radii[i + 1]);
+        const Sector sector(probe, half.centre, angle, probe.rim(half.centre, angle, reach, kBisections));
+        for (int distance = 0; distance <= PupilNodes::kDistances; ++distance) {
+            const double share = double(distance) / PupilNodes::kDistances;
+            nodes.push_back(sector.upTo(share * share));
+        }
+    }
+    return nodes;
 }
 
 } // namespace
 
+glm::dvec2 PupilNodes::direction(int turn) {
+    const double t = 2.0 * turn / kTurns;
+    return glm::normalize(glm::dvec2(1 - t, t <= 1 ? t : 2 - t));
+}
+
 ExitPupil::ExitPupil(const LensSystem& lens, double filmZ, double filmRadius)
-    : filmRadius_(filmRadius), outlines_(kFilmRadii) {
+    : filmRadius_(filmRadius), rings_(PupilNodes::kRings) {
     const double widest =
         1.5 * lens.rearRadius(); // at z = 0 rays may be further out than at the rear surface
     glm::dvec2 low(-widest), high(widest);
-    for (int k = 0; k < kFilmRadii; ++k) {
-        const Probe probe(lens, filmZ, filmRadius * k / (kFilmRadii - 1));
+    for (int k = 0; k < PupilNodes::kRings; ++k) {
+        const Probe probe(lens, filmZ, ringRadius(k));
         const std::optional<glm::dvec2> found = probe.scan(low, high, k == 0 ? kFirstScan : kScan);
         if (!found) break; // and so it remains further out
-        HalfOutline half = probe.outline(found->x, 2 * widest, kRoughBisections);
-        double centre = 0;
-        sectorAreas(half, centre);
-        half = probe.outline(centre, 2 * widest, kBisections);
-        const std::vector<double> areas = sectorAreas(half, centre);
+        const HalfOutline half = probe.outline(
+            middleOf(probe.outline(found->x, 2 * widest, kRoughBisections)), 2 * widest, kBisections);
+        const std::vector<double> light = lightUpTo(probe, half);
+        if (!(light.back() > 0)) break;
+        rings_[std::size_t(k)] = {2 * light.back(), nodesOf(probe, half, light)};
 
-        Outline& outline = outlines_[std::size_t(k)];
-        outline.centre = {half.centre, 0};
-        outline.area = 2 * areas.back();
-        std::vector<glm::dvec2> upper;
-        std::size_t i = 0;
-        for (int j = 0; j <= kSectors / 2; ++j) {
-            const double target = areas.back() * 2 * j / kSectors;
-            while (i + 1 < kDirections && areas[i + 1] < target) ++i;
-            const double f = std::clamp((target - areas[i]) / (areas[i + 1] - areas[i]), 0.0, 1.0);
-            const double angle = std::numbers::pi * (double(i) + f) / kDirections;
-            const double radius = half.radii[i] + f * (half.radii[i + 1] - half.radii[i]);
-            upper.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
-        }
-        outline.rim = upper;
-        for (auto p = upper.rbegin() + 1; p != upper.rend(); ++p) outline.rim.emplace_back(p->x, -p->y);
-
-        low = high = outline.centre;
-        for (const glm::dvec2& p : outline.rim) {
-            low = glm::min(low, outline.centre + p);
-            high = glm::max(high, outline.centre + p);
+        low = high = {half.centre, 0};
+        for (const glm::dvec2& p : rings_[std::size_t(k)].nodes) {
+            low = glm::min(low, glm::dvec2(p.x, -p.y));
+            high = glm::max(high, p);
         }
         const glm::dvec2 margin = 0.3 * (high - low) + 1e-3 * widest;
         low -= margin;
@@ -137,63 +193,72 @@ ExitPupil::ExitPupil(const LensSystem& lens, double filmZ, double filmRadius)
 }
 
 /// Seen from the film, another plane shows the pupils magnified. Its distance is fitted so that their centres
-/// are nearest to the axis, each weighted by its area.
+/// are nearest to the axis, each weighted by its light.
 void ExitPupil::choosePlane(double filmZ) {
     double product = 0, square = 0;
-    const auto filmX = [&](std::size_t k) { return -filmRadius_ * double(k) / (kFilmRadii - 1); };
-    for (std::size_t k = 0; k < outlines_.size(); ++k) {
-        const double offset = outlines_[k].centre.x - filmX(k);
-        product -= outlines_[k].area * filmX(k) * offset;
-        square += outlines_[k].area * offset * offset;
+    for (int k = 0; k < PupilNodes::kRings; ++k) {
+        const Ring& ring = rings_[std::size_t(k)];
+        if (ring.nodes.empty()) break;
+        const double offset = ring.nodes[0].x + ringRadius(k);
+        product += ring.irradiance * ringRadius(k) * offset;
+        square += ring.irradiance * offset * offset;
     }
     double scale = square > 0 ? product / square : kFarthestPlane;
     if (!(scale > 0 && scale < kFarthestPlane)) scale = kFarthestPlane;
     planeZ_ = filmZ * (1 - scale);
-    for (std::size_t k = 0; k < outlines_.size(); ++k) {
-        Outline& outline = outlines_[k];
-        const glm::dvec2 film(filmX(k), 0);
-        outline.centre = film + scale * (outline.centre - film);
-        outline.area *= scale * scale;
-        for (glm::dvec2& p : outline.rim) {
-            p *= scale;
-            radius_ = std::max(radius_, glm::length(outline.centre + p));
+    glm::dvec2 last(0);
+    for (int k = 0; k < PupilNodes::kRings; ++k) {
+        Ring& ring = rings_[std::size_t(k)];
+        const glm::dvec2 film(-ringRadius(k), 0);
+        for (glm::dvec2& p : ring.nodes) {
+            p = film + scale * (p - film);
+            radius_ = std::max(radius_, glm::length(p));
         }
-        // Where it has just vanished it is a point at its last place.
-        if (outline.area == 0 && k > 0 && outlines_[k - 1].area > 0) outline.centre = outlines_[k - 1].centre;
-        if (outline.rim.empty()) outline.rim.assign(kSectors + 1, glm::dvec2(0));
+        // Where it has vanished it is a point at its last place.
+        if (ring.nodes.empty()) ring.nodes.assign(kNodes, last);
+        last = ring.nodes[0];
     }
 }
 
 double ExitPupil::imageRadius() const {
-    for (std::size_t k = 0; k < outlines_.size(); ++k)
-        if (outlines_[k].area == 0) return filmRadius_ * double(k) / (kFilmRadii - 1);
+    for (int k = 0; k < PupilNodes::kRings; ++k)
+        if (rings_[std::size_t(k)].irradiance == 0) return ringRadius(k);
     return std::numeric_limits<double>::infinity();
 }
 
-ExitPupil::Point ExitPupil::sample(double r, glm::vec2 square) const {
-    const double place = r / filmRadius_ * (kFilmRadii - 1);
-    if (!(place < kFilmRadii - 1)) return {{}, {}, 0};
+glm::dvec2 ExitPupil::node(int ring, int turn, int distance) const {
+    return rings_[std::size_t(ring)].nodes[std::size_t(turn * (PupilNodes::kDistances + 1) + distance)];
+}
+
+double ExitPupil::irradiance(double r) const {
+    const double place = r / filmRadius_ * (PupilNodes::kRings - 1);
+    if (!(place < PupilNodes::kRings - 1)) return 0;
     const std::size_t k = std::size_t(place);
-    const double f = place - double(k);
+    const double a = std::sqrt(rings_[k].irradiance), b = std::sqrt(rings_[k + 1].irradiance);
+    const double diameter = a + (place - double(k)) * (b - a);
+    return diameter * diameter;
+}
 
-    // Concentric map of Shirley and Chiu: distance from the centre and angle in turns.
-    const double x = 2 * double(square.x) - 1, y = 2 * double(square.y) - 1;
-    const bool wide = std::abs(x) > std::abs(y);
-    double distance = wide ? x : y;
-    double turn = distance == 0 ? 0 : wide ? y / x / 8 : 0.25 - x / y / 8;
-    if (distance < 0) turn += 0.5;
-    distance = std::abs(distance);
-    if (turn < 0) turn += 1;
-    const double sector = std::min(turn * kSectors, kSectors - 1e-9);
-    const std::size_t j = std::size_t(sector);
-    const double g = sector - double(j);
-
-    const auto at = [&](const Outline& o) {
-        return o.centre + distance * (o.rim[j] + g * (o.rim[j + 1] - o.rim[j]));
+glm::dvec2 ExitPupil::at(double r, glm::dvec2 disc) const {
+    const double place = std::min(r / filmRadius_, 1.0) * (PupilNodes::kRings - 1);
+    const int ring = std::min(int(place), PupilNodes::kRings - 2);
+    const double x = disc.x, y = std::abs(disc.y), norm = std::abs(x) + y;
+    const double t = norm > 0 ? 1 - x / norm : 0;
+    const double turns = t * (PupilNodes::kTurns / 2.0);
+    const int turn = std::min(int(turns), PupilNodes::kTurns - 1);
+    const double distances = std::min(glm::length(disc), 1.0) * PupilNodes::kDistances;
+    const int distance = std::min(int(distances), PupilNodes::kDistances - 1);
+    const double f = place - ring, g = turns - turn, h = distances - distance;
+    const auto along = [&](int k, int j) {
+        const glm::dvec2 a = node(k, j, distance), b = node(k, j, distance + 1);
+        return a + h * (b - a);
     };
-    const Outline &a = outlines_[k], &b = outlines_[k + 1];
-    const double diameter = std::sqrt(a.area) + f * (std::sqrt(b.area) - std::sqrt(a.area));
-    return {at(a) + f * (at(b) - at(a)), a.centre + f * (b.centre - a.centre), diameter * diameter};
+    const auto inRing = [&](int k) {
+        const glm::dvec2 a = along(k, turn), b = along(k, turn + 1);
+        return a + g * (b - a);
+    };
+    const glm::dvec2 a = inRing(ring), p = a + f * (inRing(ring + 1) - a);
+    return {p.x, disc.y < 0 ? -p.y : p.y};
 }
 
 } // namespace slant

@@ -1,11 +1,11 @@
 // The exit pupil of a lens as it is seen from each place of the film: where rays get through, exactly, all
 // clear diameters counted.
 //
-// Outlines are kept for a series of film radii, each as the rim points of sectors of equal area around the
-// pupil's centre of mass. A point of the unit square is mapped to the same place of two of them, so that
-// points are spread evenly over the true pupil and none is lost; only what interpolation puts a hair outside
-// is blocked. The plane on which the pupil is described is the one where it moves least as the film point
-// moves, the exit pupil proper.
+// It is mapped from the unit disc, for a series of film radii: nodes at directions and distances of the disc
+// each have their place on the pupil, such that equal areas of the disc receive equal shares of the light
+// that comes through the pupil (cos^4 counted). So places spread evenly over the disc need no weights, none
+// is lost, and only what interpolation puts a hair outside is blocked. The plane on which the pupil is
+// described is the one where it moves least as the film point moves, the exit pupil proper.
 #pragma once
 #include "camera/lens_system.h"
 
@@ -14,19 +14,27 @@
 
 namespace slant {
 
+/// Nodes of the unit disc. Directions are counted over half a turn by the sum norm, which needs no
+/// trigonometry: (x, y) with y >= 0 and |x| + y = 1 is in direction 1 - x of 0 to 2.
+struct PupilNodes {
+    static constexpr int kRings = 64, kTurns = 64, kDistances = 16; ///< intervals of the last two
+    /// Between direction and distance nodes, of one quarter or the other: unit vector of a direction node.
+    static glm::dvec2 direction(int turn);
+};
+
 class ExitPupil {
 public:
     /// For film points up to `filmRadius` from the axis, in the plane z = filmZ.
     ExitPupil(const LensSystem& lens, double filmZ, double filmRadius);
 
-    struct Point {
-        glm::dvec2 position; ///< on the pupil plane
-        glm::dvec2 centre;   ///< of the pupil seen from there
-        double area;         ///< of that pupil, mm^2; 0: no ray gets through
-    };
-    /// For the film point (-r, 0) with 0 <= r: `square` in [0, 1)^2 is mapped as concentricDisc does.
-    Point sample(double r, glm::vec2 square) const;
+    /// For the film point (-r, 0) with 0 <= r, the place on the pupil plane of one in the unit disc.
+    glm::dvec2 at(double r, glm::dvec2 disc) const;
+    /// The irradiance of the film there under radiance 1; 0: no ray gets through.
+    double irradiance(double r) const;
 
+    /// Place of a node, of film radius filmRadius * ring / (kRings - 1).
+    glm::dvec2 node(int ring, int turn, int distance) const;
+    double ringRadius(int ring) const { return filmRadius_ * ring / (PupilNodes::kRings - 1); }
     double filmRadius() const { return filmRadius_; }
     double planeZ() const { return planeZ_; }
     /// The largest distance from the axis of any pupil on its plane.
@@ -35,19 +43,16 @@ public:
     double imageRadius() const;
 
 private:
-    static constexpr int kSectors = 128;
-
-    struct Outline {
-        glm::dvec2 centre{0};
-        double area = 0;
-        std::vector<glm::dvec2> rim; ///< kSectors + 1 points, relative to the centre
+    struct Ring {
+        double irradiance = 0;
+        std::vector<glm::dvec2> nodes; ///< [turn][distance], the half with y >= 0
     };
 
     void choosePlane(double filmZ);
 
     double filmRadius_;
     double planeZ_ = 0, radius_ = 0;
-    std::vector<Outline> outlines_; ///< by film radius, evenly spaced from 0 to filmRadius
+    std::vector<Ring> rings_;
 };
 
 } // namespace slant

@@ -72,10 +72,9 @@ void drawRays(Sheet& sheet, const CompoundLens& camera, double film, double fron
     const double r = std::abs(film);
     for (int i = 0; i < kRays; ++i) {
         // Along the line through the pupil's centre that the film radius lies on.
-        const float place = (float(i) + 0.5f) / kRays;
-        const ExitPupil::Point point = camera.pupil().sample(r, {place, 0.5f});
-        if (!(point.area > 0)) continue;
-        const double pupil = film > 0 ? -point.position.x : point.position.x;
+        const double place = 2 * (i + 0.5) / kRays - 1;
+        if (!(camera.pupil().irradiance(r) > 0)) continue;
+        const double along = camera.pupil().at(r, {place, 0}).x, pupil = film > 0 ? -along : along;
         const glm::dvec3 from(film, 0, camera.filmZ());
         const glm::dvec3 to(pupil, 0, camera.pupil().planeZ());
         const std::vector<glm::dvec3> corners =

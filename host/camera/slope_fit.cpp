@@ -1,6 +1,6 @@
 #include "camera/slope_fit.h"
 
-#include "camera/compound_lens.h"
+#include "camera/disc.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,6 +42,15 @@ RadialSlope SlopeFit::at(SlopeRung rung, double px) const {
     return {a.c1 + f * (b.c1 - a.c1), a.c2 + f * (b.c2 - a.c2)};
 }
 
+// A point seen at depth w stays where it is while the place on the pupil moves by du: with Q = position + w *
+// tangent, dQ/dx dx + dQ/du du = 0.
+glm::dmat2 slopeMatrix(const ScenePath& path, double inverseDepth) {
+    const auto column = [&](std::size_t i) {
+        return path.change[i].tangent + inverseDepth * path.change[i].position;
+    };
+    return -(glm::inverse(glm::dmat2(column(0), column(1))) * glm::dmat2(column(2), column(3)));
+}
+
 SlopeFit fitSlopes(const CompoundLens& camera, double nearDepth, double farDepth) {
     SlopeFit fit;
     // As far as there is light.
@@ -50,21 +59,21 @@ SlopeFit fitSlopes(const CompoundLens& camera, double nearDepth, double farDepth
     LineFit whole;
     for (int k = 0; k < kRadii; ++k) {
         const double px = fit.radiusPx * k / (kRadii - 1), r = px * camera.millimetresPerPixel();
+        const double light = camera.pupil().irradiance(r);
         LineFit line;
         for (int i = 0; i < kLensSide * kLensSide; ++i) {
-            const glm::vec2 square((float(i % kLensSide) + 0.5f) / kLensSide,
-                                   (float(i / kLensSide) + 0.5f) / kLensSide);
-            const ExitPupil::Point point = camera.pupil().sample(r, square);
+            const glm::vec2 disc = concentricDisc((float(i % kLensSide) + 0.5f) / kLensSide,
+                                                  (float(i / kLensSide) + 0.5f) / kLensSide);
             const auto path = camera.path(camera.filmCentre() + glm::dvec2(px, 0),
-                                          point.position / camera.pupil().radius());
-            if (!(point.area > 0) || !path) continue;
+                                          camera.pupil().at(r, disc) / camera.pupil().radius());
+            if (!(light > 0) || !path) continue;
             for (int d = 0; d < kDepths; ++d) {
                 const double q = 1 / farDepth + (1 / nearDepth - 1 / farDepth) * d / (kDepths - 1);
                 const glm::dmat2 slope = slopeMatrix(*path, q);
                 const glm::dvec2 s(slope[0][0], slope[1][1]);
                 line.add(q, s, 1);
                 if (px <= glm::length(camera.filmCentre()))
-                    whole.add(q, glm::dvec2((s.x + s.y) / 2), px * point.area);
+                    whole.add(q, glm::dvec2((s.x + s.y) / 2), px * light);
             }
         }
         // Where nothing gets through, what was last seen is as good as anything.

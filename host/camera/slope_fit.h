@@ -1,14 +1,12 @@
-// The ladder of slope models: how much a sample has to know to say where its point is seen through another
-// part of the lens. A lens that images sharply needs two constants, a real one more or less.
+// The ladder of slope models on the film's side: how much a sample has to know to say where its point is seen
+// through another part of the exit pupil. A lens that images sharply needs two constants; that real ones need
+// more, and how much even the best leaves, is why rays are described on the scene's side (lens_map.h).
 #pragma once
-#include "camera/slope_model.h"
+#include "camera/compound_lens.h"
 
-#include <glm/glm.hpp>
 #include <vector>
 
 namespace slant {
-
-class CompoundLens;
 
 inline constexpr double kSlopeTolerancePx = 0.25;
 
@@ -23,7 +21,6 @@ struct RadialSlope {
     glm::dvec2 c1{0}, c2{0};
 
     glm::dvec2 at(double inverseDepth) const { return c1 * inverseDepth + c2; }
-    SlopeModel mean() const { return {float((c1.x + c1.y) / 2), float((c2.x + c2.y) / 2)}; }
 };
 
 /// Of the lower rungs.
@@ -35,6 +32,10 @@ struct SlopeFit {
     /// At `px` pixels from the middle of the film.
     RadialSlope at(SlopeRung rung, double px) const;
 };
+
+/// How the raster position changes with the place on the exit pupil through which a point of the ray is seen,
+/// `inverseDepth` = 1 / depth, in pixels per radius.
+glm::dmat2 slopeMatrix(const ScenePath& path, double inverseDepth);
 
 /// Means over the pupil of the derivatives of trajectories, fitted to depths that are evenly spaced in their
 /// inverse; the whole film counts by its light.

@@ -1,6 +1,7 @@
-// How far from the truth each slope model puts points of the scene on the raster.
+// How far from the truth each slope model puts points of the scene on the raster. All but the last look at
+// rays on the film's side, through the exit pupil.
 #pragma once
-#include "camera/compound_lens.h"
+#include "camera/slope_fit.h"
 
 #include <vector>
 
@@ -24,9 +25,10 @@ struct DepthResiduals {
     Residual corrected;
     Residual sampleMean; ///< by sample, the isotropic part
     Residual sample;     ///< by sample, 2 x 2
+    Residual scene;      ///< on the scene's side, one slope for the whole lens: what the lens map leaves
 };
 
-/// At `nearDepth`, in focus (if between them) and at `farDepth`.
+/// At `nearDepth`, in focus (if between them) and at `farDepth`, which may be infinite.
 std::vector<DepthResiduals> slopeResiduals(const CompoundLens& camera, double nearDepth, double farDepth);
 
 /// The largest 95th percentile of a rung's isotropic slopes.

@@ -4,6 +4,7 @@
 #include "camera/aperture.h"
 #include "camera/camera_sample.h"
 #include "camera/disc.h"
+#include "camera/slope_model.h"
 #include "scene/scene.h"
 
 #include <glm/glm.hpp>
@@ -31,7 +32,7 @@ public:
     CameraSample sample(glm::vec2 raster, glm::vec2 square) const {
         const glm::vec2 lens =
             aperture_.isDisc() ? concentricDisc(square.x, square.y) : aperture_.at(2.f * square - 1.f);
-        return {ray(raster, lens), lens, 1, slopeModel()};
+        return {ray(raster, lens), lens, 1};
     }
 
     /// c1 = -S A, c2 = S A / f with S = pixelsPerTangent.

@@ -51,10 +51,9 @@ std::string rangeText(const ValueRange& range) {
 
 std::string slopeText(const LightField& field) {
     const SlopeModel& m = field.slopeModel;
-    std::string text = fmt::format("{:.9g} / w + {:.9g}", m.c1, m.c2);
-    if (m.c3 != 0 || m.d1 != 0 || m.d2 != 0)
-        text = fmt::format("({} + {:.9g} / w^2) / (1 + {:.9g} / w + {:.9g} / w^2)", text, m.c3, m.d1, m.d2);
-    return text + " pixels per lens radius" + (hasOwnSlopes(field) ? "; samples have their own" : "");
+    return fmt::format("{:.9g} / w + {:.9g} pixels per lens radius{}{}", m.c1, m.c2,
+                       hasOwnSlopes(field) ? "; samples have their own" : "",
+                       field.lensMap.empty() ? "" : ", on the scene's side of a lens map");
 }
 
 std::string countsText(const LightField& field) {
@@ -130,10 +129,8 @@ void printJson(const std::string& path, const FieldFile& file, const FieldSummar
         {"auxiliary", !field.auxiliary.empty()},
         {"c1", field.slopeModel.c1},
         {"c2", field.slopeModel.c2},
-        {"c3", field.slopeModel.c3},
-        {"d1", field.slopeModel.d1},
-        {"d2", field.slopeModel.d2},
         {"ownSlopes", hasOwnSlopes(field)},
+        {"lensMap", !field.lensMap.empty()},
         {"focusDistance", orNull(camera.focusDistance)},
         {"pixelsPerTangent", orNull(camera.pixelsPerTangent)},
         {"fovDegrees", orNull(camera.fovDegrees)},

@@ -35,6 +35,7 @@ struct Subject {
     CompoundLens camera;
     Film film;
     std::string path;
+    double nearDepth, farDepth; ///< metres
 };
 
 Film filmOf(double diagonalMm) {
@@ -55,7 +56,10 @@ Subject fromScene(const LensOptions& options) {
     if (!scene.realistic)
         throw badInput({options.file}, "the camera of this scene is not \"realistic\": it has no lens");
     const Tracer tracer(scene, monitor);
-    return {*tracer.camera().compoundLens(), scene.film, scene.realistic->lens.path};
+    const CompoundLens& camera = *tracer.camera().compoundLens();
+    const auto [nearest, farthest] = tracer.depthRange();
+    return {camera, scene.film, scene.realistic->lens.path,
+            std::isfinite(nearest) ? nearest : camera.focusDepth() / 2, farthest};
 }
 
 Subject fromLensFile(const LensOptions& options) {
@@ -73,7 +77,9 @@ Subject fromLensFile(const LensOptions& options) {
         const double circle = 2 * CompoundLens(camera, {}, film).pupil().imageRadius();
         film = filmOf(std::min(kFullFrameMm, kImageCircleShare * circle));
     }
-    return {CompoundLens(camera, {}, film), film, options.file};
+    CompoundLens lens(camera, {}, film);
+    const double nearDepth = lens.focusDepth() / 2;
+    return {std::move(lens), film, options.file, nearDepth, std::numeric_limits<double>::infinity()};
 }
 
 bool isScene(const std::string& file) {
@@ -83,9 +89,8 @@ bool isScene(const std::string& file) {
 /// Angle between the axis and what the film sees in its corner, through the middle of the pupil.
 double halfField(const CompoundLens& camera) {
     const glm::dvec2 corner = camera.filmCentre();
-    const glm::dvec2 lens =
-        camera.pupil().sample(glm::length(corner) * camera.millimetresPerPixel(), {0.5f, 0.5f}).position /
-        camera.pupil().radius();
+    const glm::dvec2 lens = camera.pupil().at(glm::length(corner) * camera.millimetresPerPixel(), {0, 0}) /
+                            camera.pupil().radius();
     const auto path = camera.path(2.0 * corner, lens.x * glm::normalize(corner));
     if (!path) return std::numeric_limits<double>::quiet_NaN();
     return std::atan(glm::length(path->line.tangent)) * 180 / std::numbers::pi;
@@ -95,10 +100,6 @@ void printFigures(const Subject& subject) {
     const CompoundLens& camera = subject.camera;
     const LensSystem& lens = camera.lens();
     const double half = glm::length(camera.filmCentre()) * camera.millimetresPerPixel();
-    const auto light = [&](double r) {
-        const double z = camera.pupil().planeZ() - camera.filmZ(), cosine2 = z * z / (z * z + r * r);
-        return camera.pupil().sample(r, {0.5f, 0.5f}).area * cosine2 * cosine2;
-    };
     fmt::print("{}\n", subject.path);
     fmt::print("  focal length    {:.3f} mm, nearest focus {:.3f} m\n", lens.focalLength(),
                lens.nearestFocus() / 1000);
@@ -118,13 +119,12 @@ void printFigures(const Subject& subject) {
     else
         fmt::print("  field           {:.1f} degrees across the diagonal, corners {:.0f} % as bright as the "
                    "centre\n",
-                   2 * field, 100 * light(half) / light(0));
+                   2 * field, 100 * camera.pupil().irradiance(half) / camera.pupil().irradiance(0));
 }
 
 void printResiduals(const Subject& subject, double tolerancePx) {
     const CompoundLens& camera = subject.camera;
-    const std::vector<DepthResiduals> residuals =
-        slopeResiduals(camera, camera.nearDepth(), camera.farDepth());
+    const std::vector<DepthResiduals> residuals = slopeResiduals(camera, subject.nearDepth, subject.farDepth);
     fmt::print("\n  Slope models: pixels off, 95th percentile / maximum\n  {:<38}", "");
     for (const DepthResiduals& at : residuals) fmt::print("{:>18}", fmt::format("{:.4g} m", at.depth));
     fmt::print("\n  {:<38}", "largest slope");
@@ -136,6 +136,7 @@ void printResiduals(const Subject& subject, double tolerancePx) {
         {"the same, aberrations in focus aside", &DepthResiduals::corrected},
         {"sample: mean slope", &DepthResiduals::sampleMean},
         {"sample: 2 x 2", &DepthResiduals::sample},
+        {"on the scene's side: two constants", &DepthResiduals::scene},
     };
     for (const auto& [name, member] : rows) {
         fmt::print("\n  {:<38}", name);

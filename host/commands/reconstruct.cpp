@@ -46,6 +46,9 @@ public:
         reconstruction_.lensScale = lensScale(options_.focus, file_.details);
         if (!options_.focus.aperture.empty())
             reconstruction_.aperture = Aperture(readAperture(options_.focus.aperture, "", {}));
+        if (!file_.field.lensMap.empty() && (reconstruction_.lensScale != 1 || reconstruction_.aperture))
+            throw Error(ErrorCode::usage, "the field is not that of a thin lens: what another aperture would "
+                                          "make of its pupils is not known");
         checkBudget(file_.field.frame, int(sampleCounts(file_.field).most), reconstruction_);
         const double outside = shareOutside(apertureOf(file_.field, reconstruction_),
                                             reconstruction_.lensScale, file_.field.aperture);

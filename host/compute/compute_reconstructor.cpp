@@ -1,7 +1,7 @@
 #include "compute/compute_reconstructor.h"
 
 #include "compute/compute_methods.h"
-#include "reconstruct/grid.h"
+#include "reconstruct/lens_tiles.h"
 #include "reconstruct/stage_timer.h"
 
 #include <array>
@@ -25,7 +25,7 @@ void ComputeRun::observe(const char* name, const Buffer& buffer, std::uint64_t t
 DeviceBins ComputeRun::bin() {
     StageTimer timer(report, "bin", "samples");
     timer.items = field.samples.size();
-    DeviceBins bins = BinPasses(device).run(commands, field, outputRegion(field.frame, film.filter()));
+    DeviceBins bins = BinPasses(device).run(commands, field, searchRegionOf(field, film.filter()));
     timer.bytes = device.peakBytes();
     observe("bin.bricks", bins.bricks);
     observe("bin.cells", bins.cellStart);
@@ -41,7 +41,10 @@ Image ComputeReconstructor::reconstruct(const LightField& field, const Reconstru
                                         Monitor& monitor, ReconstructReport& report,
                                         StageObserver* observer) {
     device_.resetPeakBytes();
-    ComputeRun run{device_, field, options, monitor, report, observer};
+    LightField scenic;
+    const bool throughLens = usesOutputs(options.method) && !field.lensMap.empty();
+    if (throughLens) scenic = onSceneSide(field);
+    ComputeRun run{device_, throughLens ? scenic : field, options, monitor, report, observer};
     kMethods.at(std::size_t(options.method))(run);
     run.filmPass.download(run.film);
     if (observer)

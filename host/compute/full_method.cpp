@@ -20,8 +20,9 @@ public:
         : run_(run), bins_(run.bin()),
           pattern_(makeOutputPattern(run.options.outputsPerPixel, largestSlope(bins_.grid),
                                      run.options.lensScale, apertureOf(run.field, run.options))),
-          listPasses_(run.device, pattern_.groups), outputPasses_(run.device, pattern_) {
-        if (run.options.method == Method::ladder) layerPasses_.emplace(run.device, pattern_);
+          listPasses_(run.device, pattern_, run.field.lensMap),
+          outputPasses_(run.device, pattern_, run.field.lensMap) {
+        if (usesLayers(run.field, run.options.method)) layerPasses_.emplace(run.device, pattern_);
     }
 
     void fill() {
@@ -115,6 +116,11 @@ private:
         {
             StageTimer timer(report, "reconstruct", "outputs");
             const DeviceLists lists = listPasses_.run(run_.commands, bins_, push, 2 * bins_.grid.radiusPx);
+            if (run_.observer && !run_.field.lensMap.empty()) {
+                const std::vector<float>& bounds = listPasses_.lensBounds();
+                run_.observer->stage("lists.lens",
+                                     {reinterpret_cast<const uint*>(bounds.data()), bounds.size()});
+            }
             run_.observe("lists.start", lists.start);
             run_.observe("lists.bricks", lists.ids);
             const Left left = takeFromMap(band, lists, push, dense);
@@ -139,15 +145,15 @@ private:
     /// The outputs with more candidates than a shader may loop over.
     void finishOnCpu(const Band& band, const OutputPush& push, const std::vector<uint>& indices,
                      Buffer& dense) {
-        CpuChunk cpu(cpuBins(), nullptr, pattern_, band, run_.options.seed, push.firstGroup, push.groupCount);
+        CpuChunk cpu(cpuBins(), nullptr, run_.field.lensMap, pattern_, band, run_.options.seed,
+                     push.firstGroup, push.groupCount);
         cpu.redo(indices, run_.report);
         for (const uint index : indices)
             dense.upload(std::span<const vec4>(&cpu.dense.samples[index], 1), index);
     }
 
     const Bins& cpuBins() {
-        const LightField& field = run_.field;
-        if (!cpuBins_) cpuBins_ = binSamples(field, outputRegion(field.frame, run_.film.filter()));
+        if (!cpuBins_) cpuBins_ = binSamples(run_.field, searchRegionOf(run_.field, run_.film.filter()));
         return *cpuBins_;
     }
 

@@ -22,7 +22,10 @@ void LayerPasses::makeMap(CommandList& commands, const DeviceBins& bins, const M
     push.groupCount = 1;
     push.brickTotal = bins.brickTotal;
     push.radiusPx = mapRadius(bins.grid);
-    ListPasses listPasses(device_, std::vector<LensBox>{{vec2(0), vec2(0)}});
+    OutputPattern center;
+    center.groups = {{vec2(0), vec2(0)}};
+    const LensMap noLens;
+    ListPasses listPasses(device_, center, noLens);
     const DeviceLists lists = listPasses.run(commands, bins, push, 2 * push.radiusPx);
     Buffer counters(device_, TexelFormat::r32ui, kCounters), overflowList(device_, TexelFormat::r32ui, base);
     commands.fill(counters, 0);

@@ -1,5 +1,8 @@
 #include "compute/list_passes.h"
 
+#include "compute/lens_buffer.h"
+#include "reconstruct/lens_tiles.h"
+
 #include <bit>
 
 namespace slant {
@@ -14,16 +17,23 @@ Buffer uploadBoxes(Device& device, const std::vector<LensBox>& groups) {
 
 } // namespace
 
-ListPasses::ListPasses(Device& device, const std::vector<LensBox>& groups)
-    : device_(device), count_(device, "list_count"), emit_(device, "list_emit"), start_(device, "list_start"),
+ListPasses::ListPasses(Device& device, const OutputPattern& pattern, const LensMap& lens)
+    : device_(device), pattern_(pattern), lens_(lens), count_(device, "list_count", throughLens(lens)),
+      emit_(device, "list_emit", throughLens(lens)), start_(device, "list_start"),
       gather_(device, "list_gather"), scan_(device, 1), sort_(device, 1),
-      lensBoxes_(uploadBoxes(device, groups)) {}
+      lensBoxes_(uploadBoxes(device, pattern.groups)) {}
 
 DeviceLists ListPasses::run(CommandList& commands, const DeviceBins& bins, OutputPush push, float marginPx) {
     push.radiusPx = marginPx;
+    if (!lens_.empty())
+        lensBounds_ = lensTileBounds(lens_, pattern_, push.firstGroup, push.groupCount, push.grid,
+                                     push.outputs, marginPx);
+    Buffer lensTiles(device_, TexelFormat::r32f, lensBounds_.size());
+    lensTiles.upload(lensBounds_);
     push.count = push.groupCount * bins.brickTotal;
     Buffer offsets(device_, TexelFormat::r32ui, push.count + 1);
-    commands.dispatch(count_, {bins.bricks, lensBoxes_, offsets}, push, count_.gridFor(push.count + 1));
+    commands.dispatch(count_, {bins.bricks, lensBoxes_, offsets, lensTiles}, push,
+                      count_.gridFor(push.count + 1));
     scan_.reserve(push.count + 1);
     scan_.record(commands, offsets, push.count + 1);
     commands.run();
@@ -33,7 +43,7 @@ DeviceLists ListPasses::run(CommandList& commands, const DeviceBins& bins, Outpu
     const uint lists = push.groupCount * uint(push.outputs.tileCount.x) * uint(push.outputs.tileCount.y);
     PairBuffers pairs(device_, entries), scratch(device_, entries);
     push.count = entries;
-    commands.dispatch(emit_, {bins.bricks, lensBoxes_, offsets, pairs.keys, pairs.values}, push,
+    commands.dispatch(emit_, {bins.bricks, lensBoxes_, offsets, pairs.keys, pairs.values, lensTiles}, push,
                       emit_.gridFor(entries));
     sort_.reserve(entries);
     const bool inScratch =

@@ -14,21 +14,27 @@ struct DeviceLists {
 
 class ListPasses {
 public:
-    ListPasses(Device& device, const std::vector<LensBox>& groups);
+    /// Outputs of `pattern` look through `lens` unless it is empty; both must live on.
+    ListPasses(Device& device, const OutputPattern& pattern, const LensMap& lens);
 
     /// Lists of push.groupCount groups from push.firstGroup on; push needs grid, outputs and brickTotal.
     /// Runs on `commands`, which must be empty, and leaves it empty.
     DeviceLists run(CommandList& commands, const DeviceBins& bins, OutputPush push, float marginPx);
 
+    /// The tiles' bounds that the last lists are from, through a lens map.
+    const std::vector<float>& lensBounds() const { return lensBounds_; }
     /// Of all groups: min, max.
     const Buffer& lensBoxes() const { return lensBoxes_; }
 
 private:
     Device& device_;
+    const OutputPattern& pattern_;
+    const LensMap& lens_;
     Pass count_, emit_, start_, gather_;
     Scan scan_;
     RadixSort sort_;
     Buffer lensBoxes_;
+    std::vector<float> lensBounds_;
 };
 
 } // namespace slant

@@ -1,17 +1,20 @@
 #include "compute/output_passes.h"
 
+#include "compute/lens_buffer.h"
 #include "reconstruct/grid.h"
 
 #include <algorithm>
 
 namespace slant {
 
-OutputPasses::OutputPasses(Device& device, const OutputPattern& pattern)
-    : device_(device), nearest_(device, "reconstruct"), visibility_(device, "visibility"),
+OutputPasses::OutputPasses(Device& device, const OutputPattern& pattern, const LensMap& lens)
+    : device_(device), nearest_(device, "reconstruct", throughLens(lens)),
+      visibility_(device, "visibility", throughLens(lens)),
       pattern_(device, TexelFormat::rgba32ui, pattern.entries.size()),
       aperture_(device, TexelFormat::r32f, pattern.aperture.table().size()),
-      counters_(device, TexelFormat::r32ui, kCounters), visibilityList_(device, TexelFormat::r32ui, 0),
-      holeList_(device, TexelFormat::r32ui, 0), overflowList_(device, TexelFormat::r32ui, 0) {
+      lensMap_(lensBuffer(device, lens)), counters_(device, TexelFormat::r32ui, kCounters),
+      visibilityList_(device, TexelFormat::r32ui, 0), holeList_(device, TexelFormat::r32ui, 0),
+      overflowList_(device, TexelFormat::r32ui, 0) {
     pattern_.upload(std::span(pattern.entries));
     aperture_.upload(pattern.aperture.table());
 }
@@ -40,7 +43,8 @@ OutputPasses::Result OutputPasses::run(CommandList& commands, ListPasses& listPa
     commands.dispatch(
         nearest_,
         {bins.positions, bins.radiances, bins.cellStart, lists.start, lists.cellBases, lists.bricks, pattern_,
-         dense, counters_, visibilityList_, overflowList_, leftLists, leftPixels, aperture_},
+         dense, counters_, visibilityList_, overflowList_, leftLists, leftPixels, aperture_,
+         lensMap_},
         push, nearest_.gridFor((std::uint64_t(push.count) * kTileSize * kTileSize) << push.groupBits));
     commands.run();
 
@@ -50,7 +54,8 @@ OutputPasses::Result OutputPasses::run(CommandList& commands, ListPasses& listPa
     const auto look = [&](const DeviceLists& in) {
         commands.dispatch(visibility_,
                           {bins.positions, bins.radiances, bins.cellStart, in.start, in.cellBases, in.bricks,
-                           pattern_, visibilityList_, dense, counters_, holeList_, overflowList_, aperture_},
+                           pattern_, visibilityList_, dense, counters_, holeList_, overflowList_, aperture_,
+                           lensMap_},
                           push, visibility_.gridFor(push.count));
         commands.run();
         return counters();

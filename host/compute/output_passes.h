@@ -8,7 +8,8 @@ namespace slant {
 
 class OutputPasses {
 public:
-    OutputPasses(Device& device, const OutputPattern& pattern);
+    /// Outputs look through `lens` unless it is empty.
+    OutputPasses(Device& device, const OutputPattern& pattern, const LensMap& lens);
 
     /// What one chunk met; what overflowed is in no other count.
     struct Result {
@@ -33,7 +34,7 @@ private:
 
     Device& device_;
     Pass nearest_, visibility_;
-    Buffer pattern_, aperture_;
+    Buffer pattern_, aperture_, lensMap_;
     Buffer counters_;
     Buffer visibilityList_, holeList_, overflowList_;
 };

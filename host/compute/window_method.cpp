@@ -1,5 +1,6 @@
 // Method `window` on the device: every output from a fixed window of pixels.
 #include "compute/compute_methods.h"
+#include "compute/lens_buffer.h"
 #include "reconstruct/stage_timer.h"
 #include "reconstruct/window_chunk.h"
 
@@ -21,11 +22,13 @@ public:
         : run_(run), samples_(windowSamples(run.field)), search_(windowSearch(run.field, run.options.window)),
           pattern_(makeOutputPattern(run.options.outputsPerPixel, 0, run.options.lensScale,
                                      apertureOf(run.field, run.options))),
-          pass_(run.device, "window"), positions_(uploaded(run.device, samples_.positions)),
+          pass_(run.device, "window", throughLens(run.field.lensMap)),
+          positions_(uploaded(run.device, samples_.positions)),
           radiances_(uploaded(run.device, samples_.radiances)),
           pixelStart_(run.device, TexelFormat::r32ui, samples_.pixelStart.size()),
           entries_(run.device, TexelFormat::rgba32ui, pattern_.entries.size()),
           aperture_(run.device, TexelFormat::r32f, pattern_.aperture.table().size()),
+          lensMap_(lensBuffer(run.device, run.field.lensMap)),
           counters_(run.device, TexelFormat::r32ui, kCounters),
           plan_(planOutputs(run.field.frame, run.film.filter(), pattern_, run.maxSamples)),
           dense_(run.device, TexelFormat::rgba32f, mostSamples()),
@@ -84,10 +87,10 @@ private:
             return all;
         }
         run_.commands.fill(counters_, 0);
-        run_.commands.dispatch(
-            pass_,
-            {positions_, radiances_, entries_, dense_, counters_, overflowList_, aperture_, pixelStart_},
-            push, pass_.gridFor(push.count));
+        run_.commands.dispatch(pass_,
+                               {positions_, radiances_, entries_, dense_, counters_, overflowList_, aperture_,
+                                pixelStart_, lensMap_},
+                               push, pass_.gridFor(push.count));
         run_.commands.run();
         std::vector<uint> counts(kCounters);
         counters_.download(std::span(counts));
@@ -101,8 +104,8 @@ private:
     }
 
     void finishOnCpu(const Band& band, int firstGroup, int groupCount, const std::vector<uint>& indices) {
-        WindowChunk cpu(samples_, search_, pattern_, band, run_.options.seed, std::size_t(firstGroup),
-                        std::size_t(groupCount));
+        WindowChunk cpu(samples_, search_, run_.field.lensMap, pattern_, band, run_.options.seed,
+                        std::size_t(firstGroup), std::size_t(groupCount));
         cpu.redo(indices, run_.report);
         if (indices.size() == cpu.dense.samples.size()) {
             dense_.upload(std::span<const vec4>(cpu.dense.samples));
@@ -117,7 +120,7 @@ private:
     WindowSearch search_;
     OutputPattern pattern_;
     Pass pass_;
-    Buffer positions_, radiances_, pixelStart_, entries_, aperture_, counters_;
+    Buffer positions_, radiances_, pixelStart_, entries_, aperture_, lensMap_, counters_;
     Plan plan_;
     Buffer dense_, overflowList_;
 };

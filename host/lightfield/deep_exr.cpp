@@ -12,6 +12,7 @@
 #include <OpenEXR/ImfDeepScanLineInputFile.h>
 #include <OpenEXR/ImfDeepScanLineOutputFile.h>
 #include <OpenEXR/ImfFloatAttribute.h>
+#include <OpenEXR/ImfFloatVectorAttribute.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfPartType.h>
@@ -31,13 +32,11 @@ constexpr std::uint64_t kLeastSampleBytes = 22;
 struct SlopeConstant {
     const char* name;
     float SlopeModel::*value;
-    bool required; ///< unless every sample has a slope; else 0 where it is missing
 };
-constexpr std::array<SlopeConstant, 5> kSlopeConstants = {{{"slant:c1", &SlopeModel::c1, true},
-                                                           {"slant:c2", &SlopeModel::c2, true},
-                                                           {"slant:c3", &SlopeModel::c3, false},
-                                                           {"slant:d1", &SlopeModel::d1, false},
-                                                           {"slant:d2", &SlopeModel::d2, false}}};
+/// Needed unless every sample has a slope.
+constexpr std::array<SlopeConstant, 2> kSlopeConstants = {
+    {{"slant:c1", &SlopeModel::c1}, {"slant:c2", &SlopeModel::c2}}};
+constexpr const char* kLensMap = "slant:lensMap";
 
 Imath::Box2i toBox(const Rect& r) {
     return {{r.x0, r.y0}, {r.x1 - 1, r.y1 - 1}};
@@ -126,10 +125,12 @@ void readAttributes(const FileLocation& where, const Imf::Header& header, bool s
         const auto* attribute = find<Imf::FloatAttribute>(header, constant.name);
         if (attribute)
             file.field.slopeModel.*constant.value = attribute->value();
-        else if (constant.required && !slopesGiven)
+        else if (!slopesGiven)
             throw badInput(where, "has neither the float attribute '{}' nor a channel 'slope'",
                            constant.name);
     }
+    if (const auto* map = find<Imf::FloatVectorAttribute>(header, kLensMap))
+        file.field.lensMap = lensMapOf(where, map->value());
     for (auto i = header.begin(); i != header.end(); ++i) {
         const std::string name = i.name(), prefix = "slant:";
         if (!name.starts_with(prefix)) continue;
@@ -242,8 +243,9 @@ Imf::Header makeHeader(const LightField& field, const FieldDetails& details,
         header.channels().insert(channel.name, Imf::Channel(Imf::FLOAT));
     header.insert("slant:version", Imf::IntAttribute(kVersion));
     for (const SlopeConstant& constant : kSlopeConstants)
-        if (const float value = field.slopeModel.*constant.value; constant.required || value != 0)
-            header.insert(constant.name, Imf::FloatAttribute(value));
+        header.insert(constant.name, Imf::FloatAttribute(field.slopeModel.*constant.value));
+    if (const std::span<const float> map = numbersOf(field.lensMap); !map.empty())
+        header.insert(kLensMap, Imf::FloatVectorAttribute({map.begin(), map.end()}));
     header.insert("slant:frame", Imf::Box2iAttribute(toBox(field.frame)));
     for (const auto& [name, value] : metadataOf(field, details)) {
         if (const auto* text = std::get_if<std::string>(&value))

@@ -67,7 +67,12 @@ FieldFile readField(const std::string& path, Monitor& monitor) {
     const std::string header = ".header";
     const std::string body = path.ends_with(header) ? path.substr(0, path.size() - header.size()) : path;
     std::error_code ignored;
-    if (body == path && isOpenExr(path)) return readDeepExr(path, monitor);
+    if (body == path && isOpenExr(path)) {
+        FieldFile file = readDeepExr(path, monitor);
+        if (!file.field.lensMap.empty() && file.field.samplesPerPixel == 0)
+            throw badInput({path}, "has a lens map, but pixels that differ in their number of samples");
+        return file;
+    }
     if (std::filesystem::exists(body + header, ignored)) return readTlfr(body, body + header, monitor);
     throw badInput({path}, "is no light field: neither OpenEXR nor TLFR, as there is no {}{}", body, header);
 }
@@ -94,7 +99,7 @@ void checkExtent(const FileLocation& location, const LightField& field, const Fi
                        kMaxSamplesPerPixel);
     checkTotal(location, std::uint64_t(field.bounds.area()) * std::uint64_t(field.samplesPerPixel));
     const SlopeModel& slope = field.slopeModel;
-    for (const float constant : {slope.c1, slope.c2, slope.c3, slope.d1, slope.d2})
+    for (const float constant : {slope.c1, slope.c2})
         if (!std::isfinite(constant))
             throw badInput(location, "a slope constant is not finite: {}", constant);
     if (slope.c1 > 0)
@@ -116,6 +121,21 @@ void takeSampleCounts(const FileLocation& location, LightField& field,
     if (samples == 0) throw badInput(location, "holds no samples");
     checkTotal(location, samples);
     setSampleCounts(field, counts);
+}
+
+LensMap lensMapOf(const FileLocation& location, std::span<const float> numbers) {
+    std::vector<vec4> texels(numbers.size() / 4);
+    for (std::size_t i = 0; i < 4 * texels.size(); ++i) texels[i / 4][int(i % 4)] = numbers[i];
+    if (numbers.size() % 4 != 0)
+        throw badInput(location, "lensMap has {} numbers, which are no fours", numbers.size());
+    if (const char* fault = faultOf(texels)) throw badInput(location, "lensMap {}", fault);
+    return LensMap(std::move(texels));
+}
+
+std::span<const float> numbersOf(const LensMap& map) {
+    static_assert(sizeof(vec4) == 4 * sizeof(float));
+    if (map.empty()) return {};
+    return {&map.texels()[0].x, 4 * map.texels().size()};
 }
 
 void allocateSamples(LightField& field, bool auxiliary) {

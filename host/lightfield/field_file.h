@@ -5,6 +5,7 @@
 #include "lightfield/field_details.h"
 #include "lightfield/lightfield.h"
 
+#include <span>
 #include <string>
 
 namespace slant {
@@ -40,6 +41,11 @@ void checkExtent(const FileLocation& location, const LightField& field, const Fi
 
 /// As setSampleCounts. Throws Error(badInput) where there are too many, or none at all.
 void takeSampleCounts(const FileLocation& location, LightField& field, std::span<const std::uint32_t> counts);
+
+/// Lens maps in files: their texels, one after another (shaders/shared/lens_map.h). Throws Error(badInput)
+/// for numbers that are none.
+LensMap lensMapOf(const FileLocation& location, std::span<const float> numbers);
+std::span<const float> numbersOf(const LensMap& map);
 
 /// Makes room for the samples of checked extents; throws Error(resources) where there is none.
 void allocateSamples(LightField& field, bool auxiliary);

@@ -90,8 +90,32 @@ bool hasOwnSlopes(const LightField& field) {
 }
 
 bool isThinLens(const LightField& field) {
-    const SlopeModel& model = field.slopeModel;
-    return model.c3 == 0 && model.d1 == 0 && model.d2 == 0 && !hasOwnSlopes(field);
+    return field.lensMap.empty() && !hasOwnSlopes(field);
+}
+
+LightField onSceneSide(const LightField& field) {
+    LightField scenic = field;
+    parallelFor(0, scenic.samples.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            LightFieldSample& s = scenic.samples[i];
+            const ScenicPlace place = field.lensMap.at({s.x, s.y}, {s.u, s.v});
+            s.x = place.xy.x;
+            s.y = place.xy.y;
+            s.u = place.uv.x;
+            s.v = place.uv.y;
+            s.r /= place.weight;
+            s.g /= place.weight;
+            s.b /= place.weight;
+            const vec3& m = place.filmMetric;
+            s.areaExcess = 1 / (m.x * m.z - m.y * m.y) - 1;
+            const float sum = s.x + s.y + s.u + s.v + s.r + s.g + s.b + s.areaExcess;
+            if (!(place.weight > 0 && std::isfinite(sum))) {
+                s = {};
+                s.slope = std::numeric_limits<float>::quiet_NaN();
+            }
+        }
+    });
+    return scenic;
 }
 
 FieldDefects sanitize(LightField& field) {

@@ -2,6 +2,7 @@
 #pragma once
 #include "base/rect.h"
 #include "camera/aperture.h"
+#include "camera/lens_map.h"
 #include "camera/slope_model.h"
 
 #include <cstdint>
@@ -21,11 +22,15 @@ namespace slant {
 /// - w: camera-space depth > 0 along the viewing axis; +infinity where nothing was hit.
 /// - slope: pixels per lens radius, for a thin lens C1/w + C2 with C1 < 0: the nearer, the smaller.
 /// - r, g, b: linear radiance.
+///
+/// Through a lens of many surfaces x, y and u, v are on the film's side (camera/lens_map.h), and points move
+/// so on the scene's.
 /// - alpha: 1 where something was hit, else 0.
 struct LightFieldSample {
     float x, y, u, v;
     float t, w, slope, alpha;
-    float r, g, b, unused;
+    float r, g, b;
+    float areaExcess; ///< 0, but for samples on the scene's side of a lens (see onSceneSide)
 };
 static_assert(sizeof(LightFieldSample) == 48);
 
@@ -45,6 +50,7 @@ struct LightField {
     std::vector<LightFieldSample> samples;
     std::vector<AuxiliarySample> auxiliary;     ///< empty, or one a sample
     Aperture aperture;                          ///< over which lens positions are spread
+    LensMap lensMap = {};                       ///< empty: a thin lens; else all pixels have as many samples
     std::vector<std::uint32_t> pixelStart = {}; ///< where pixels differ: firstSample of each, and of one more
 
     std::size_t firstSample(std::size_t pixel) const {
@@ -66,8 +72,14 @@ void setSampleCounts(LightField& field, std::span<const std::uint32_t> counts);
 /// Whether any sample's slope is not that of its depth.
 bool hasOwnSlopes(const LightField& field);
 
-/// Whether slopes are C1/w + C2 throughout.
+/// Whether slopes are C1/w + C2 throughout, and no lens map stands between them and the samples.
 bool isThinLens(const LightField& field);
+
+/// The samples of a field with a lens map as they are on the scene's side: xy and uv there, where slopes are
+/// lines; radiances as the scene has them, without the irradiance that the lens makes of them; how much more
+/// area samples there are spread over than on the film, less 1. Those where the film is dark are disabled.
+/// The rest, the map also, stays.
+LightField onSceneSide(const LightField& field);
 
 /// What `sanitize` met; each count is of samples.
 struct FieldDefects {

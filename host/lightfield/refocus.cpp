@@ -10,8 +10,7 @@
 namespace slant {
 
 std::optional<double> focusDistance(const SlopeModel& model) {
-    const bool thin = model.c3 == 0 && model.d1 == 0 && model.d2 == 0;
-    if (!thin || !(model.c1 < 0) || !(model.c2 > 0)) return {};
+    if (!(model.c1 < 0) || !(model.c2 > 0)) return {};
     return -double(model.c1) / double(model.c2);
 }
 

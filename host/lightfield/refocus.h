@@ -6,7 +6,7 @@
 
 namespace slant {
 
-/// The distance in focus, in the unit of w; nothing unless it is finite, and for slopes other than C1/w + C2.
+/// The distance in focus, in the unit of w; nothing unless it is finite.
 std::optional<double> focusDistance(const SlopeModel& model);
 
 /// The field of a thin lens focused at `distance` (infinite is allowed) instead. Every sample is seen through

@@ -11,7 +11,8 @@
 namespace slant {
 namespace {
 
-constexpr std::uint64_t kMaxHeaderBytes = 1 << 20;
+/// Lens maps are the longest that there is in them.
+constexpr std::uint64_t kMaxHeaderBytes = 1 << 25;
 
 std::string_view trimmed(std::string_view text) {
     const std::size_t first = text.find_first_not_of(" \t\r");
@@ -121,9 +122,25 @@ private:
             frame_ = rect(value);
         } else if (name == "film") {
             film_ = rect(value);
+        } else if (name == "lensMap") {
+            file_.field.lensMap = lensMapOf(where_, floats(value));
         } else if (!setDetail(file_.field, file_.details, where_, name, value)) {
             throw badInput(where_, "'slant:{}' is not known", name);
         }
+    }
+
+    std::vector<float> floats(std::string_view text) const {
+        std::vector<float> numbers;
+        const char *place = text.data(), *const last = text.data() + text.size();
+        while (place != last) {
+            float number = 0;
+            const auto [end, error] = std::from_chars(place, last, number);
+            if (error != std::errc() || (end != last && *end != ' '))
+                throw badInput(where_, "the {}th of its numbers is none", numbers.size() + 1);
+            numbers.push_back(number);
+            place = end == last ? end : end + 1;
+        }
+        return numbers;
     }
 
     Rect rect(const std::string& text) const {
@@ -181,6 +198,8 @@ std::string headerText(const LightField& field, const FieldDetails& details, boo
         header += fmt::format("slant:origin {} {}\n", field.bounds.x0, field.bounds.y0);
     if (field.frame != field.bounds) header += fmt::format("slant:frame {}\n", rectText(field.frame));
     if (details.film != field.frame) header += fmt::format("slant:film {}\n", rectText(details.film));
+    if (!field.lensMap.empty())
+        header += fmt::format("slant:lensMap {}\n", fmt::join(numbersOf(field.lensMap), " "));
     for (const auto& [name, value] : metadataOf(field, details)) {
         const std::string spelt = std::visit([](const auto& v) { return fmt::to_string(v); }, value);
         header += oneLine(name + ' ' + spelt);
@@ -210,7 +229,7 @@ FieldFile readTlfr(const std::string& bodyPath, const std::string& headerPath, M
 
 void writeTlfr(const std::string& path, const LightField& field, const FieldDetails& details, bool text,
                Monitor& monitor) {
-    if (!isThinLens(field))
+    if (hasOwnSlopes(field))
         throw Error(
             ErrorCode::usage,
             fmt::format("'{}': this field's slopes are not C1/w + C2, which is all that TLFR can say; write "

@@ -97,7 +97,8 @@ Bins binSamples(const LightField& field, const Rect& region) {
         // Cells up to this one begin here at the latest.
         bins.cellStart.resize((bricks.size() - 1) * cellsPerBrick + cell + 1, uint(record));
         bins.positions.emplace_back(p, s.slope,
-                                    visibilityWeight(stopped, bins.grid, occlusion, p, s.slope, narrowing));
+                                    visibilityWeight(stopped, bins.grid, occlusion, p, s.slope,
+                                                     narrowing / glm::sqrt(1.f + s.areaExcess)));
         bins.radiances.emplace_back(s.r, s.g, s.b, narrowing);
     }
     for (const BrickBounds& bounds : bricks) bins.bricks.push_back(bounds.brick(bins.grid));

@@ -13,7 +13,7 @@ struct SearchContext {
 
 /// A sample seen from the output's lens position.
 struct Candidate {
-    vec2 offset;     ///< from the output, pixels
+    vec2 offset;     ///< from the output, pixels of the film
     float distance2; ///< as if its own radius were that of the search
     float slope;
     float weight;  ///< see visibilityWeight
@@ -40,7 +40,7 @@ int forEachCandidate(const SearchContext& context, const Output& output, float r
     for (const uint id : context.bricks) {
         const Brick& brick = context.bins.bricks[id];
         const float ownRadius = radius * glm::max(widestRadius(brick), 1.f / mostNarrowing);
-        const float reach = ownRadius * grid.invCell;
+        const vec2 reach = ownRadius * grid.invCell * output.extent;
         const vec2 a = brick.slopeMin * shear, b = brick.slopeMax * shear;
         const ivec2 first = glm::max(cellAt(grid, center - glm::max(a, b) - reach), firstCell(brick));
         const ivec2 last = glm::min(cellAt(grid, center - glm::min(a, b) + reach), lastCell(brick));
@@ -55,7 +55,8 @@ int forEachCandidate(const SearchContext& context, const Output& output, float r
             iterations += int(end - begin) + 1;
             for (uint record = begin; record < end; ++record) {
                 const vec4& position = context.bins.positions[record];
-                const vec2 offset = vec2(position.x, position.y) + position.z * output.uv - output.xy;
+                vec2 offset = vec2(position.x, position.y) + position.z * output.uv - output.xy;
+                if (output.throughLens) offset = onFilm(output, offset);
                 const float distance2 = offset.x * offset.x + offset.y * offset.y;
                 if (!(distance2 < ownRadius * ownRadius)) continue;
                 const vec4& radiance = context.bins.radiances[record];

@@ -5,27 +5,33 @@
 #include <algorithm>
 
 namespace slant {
-namespace {
 
-SearchContext contextOf(const Bins& bins, const TileLists& lists, std::size_t list) {
-    const uint first = lists.start[list], last = lists.start[list + 1];
-    return {bins, std::span(lists.bricks).subspan(first, last - first)};
-}
-
-} // namespace
-
-CpuChunk::CpuChunk(const Bins& bins, const LayerMap* map, const OutputPattern& pattern, const Band& band,
-                   std::uint64_t seed, std::size_t firstGroup, std::size_t groupCount)
-    : bins_(bins), map_(map), pattern_(pattern), layout_(layoutOf(band, pattern, seed)),
-      groups_(pattern.groups.data() + firstGroup, groupCount), lensPoints_(lensPoints(pattern)),
-      firstOutput_(int(firstGroup) << pattern.groupBits), outputCount_(int(groupCount) << pattern.groupBits) {
+CpuChunk::CpuChunk(const Bins& bins, const LayerMap* map, const LensMap& lens, const OutputPattern& pattern,
+                   const Band& band, std::uint64_t seed, std::size_t firstGroup, std::size_t groupCount)
+    : bins_(bins), map_(map), lens_(lens), pattern_(pattern), layout_(layoutOf(band, pattern, seed)),
+      firstGroup_(firstGroup), groups_(pattern.groups.data() + firstGroup, groupCount),
+      lensPoints_(lensPoints(pattern)), firstOutput_(int(firstGroup) << pattern.groupBits),
+      outputCount_(int(groupCount) << pattern.groupBits) {
     dense.region = band.region;
     dense.groupSize = pattern.groupSize();
     dense.samples.resize(band.region.area() * outputCount_);
 }
 
+TileLists CpuChunk::makeLists(float marginPx, std::vector<float>& lensTiles) const {
+    if (lens_.empty()) return makeTileLists(bins_, layout_, groups_, marginPx);
+    lensTiles = lensTileBounds(lens_, pattern_, firstGroup_, groups_.size(), bins_.grid, layout_, marginPx);
+    return makeTileLists(bins_, layout_, groups_.size(), [&](const Brick& brick, std::size_t group) {
+        return tilesThroughLens(brick, bins_.grid, layout_, lensTiles, group);
+    });
+}
+
+SearchContext CpuChunk::contextOf(const TileLists& in, std::size_t list) const {
+    const uint first = in.start[list], last = in.start[list + 1];
+    return {bins_, std::span(in.bricks).subspan(first, last - first)};
+}
+
 void CpuChunk::run(Monitor& monitor, ReconstructReport& report) {
-    lists = makeTileLists(bins_, layout_, groups_, 2 * bins_.grid.radiusPx);
+    lists = makeLists(2 * bins_.grid.radiusPx, lensBounds);
     const std::size_t tiles = std::size_t(layout_.tileCount.x) * layout_.tileCount.y;
     rungs.assign(tiles * groups_.size(), 0);
     leftPixels.assign(2 * rungs.size(), ~0u);
@@ -52,12 +58,15 @@ CpuChunk::Slot CpuChunk::slotAt(ivec2 position, int output) const {
 }
 
 Output CpuChunk::at(const Slot& slot) const {
-    return outputAt(slot.pixel, firstOutput_ + slot.output, pattern_, layout_.seed);
+    Output output = outputAt(slot.pixel, firstOutput_ + slot.output, pattern_, layout_.seed);
+    if (!lens_.empty()) seeThrough(lens_, output);
+    return output;
 }
 
 void CpuChunk::store(const Slot& slot, const Output& output, const Reconstructed& result) {
-    dense.samples[slot.sample] =
-        result.outcome == Outcome::resolved ? vec4(result.rgb, output.positionCode) : vec4(0, 0, 0, -1);
+    dense.samples[slot.sample] = result.outcome == Outcome::resolved
+                                     ? vec4(output.weight * result.rgb, output.positionCode)
+                                     : vec4(0, 0, 0, -1);
 }
 
 void CpuChunk::runTile(std::size_t tile, Counts& counts) {
@@ -69,7 +78,7 @@ void CpuChunk::runTile(std::size_t tile, Counts& counts) {
         const std::size_t list = group * tiles + tile;
         Rung rung;
         if (map_)
-            rung = rungOf(bins_, contextOf(bins_, lists, list).bricks, groups_[group], pattern_.lensScale,
+            rung = rungOf(bins_, contextOf(lists, list).bricks, groups_[group], pattern_.lensScale,
                           map_->layout);
         rungs[list] = rung.code();
         if (!rung.clusters.empty()) leftPixels[2 * list] = leftPixels[2 * list + 1] = 0;
@@ -109,7 +118,8 @@ bool CpuChunk::takeFromMap(std::size_t group, ivec2 position, const Rung& rung) 
 
 void CpuChunk::runSlot(const Slot& slot, Counts& counts) {
     const Output output = at(slot);
-    const SearchContext context = contextOf(bins_, lists, slot.list);
+    if (!(output.weight > 0)) return store(slot, output, {Outcome::resolved}); // the film is dark
+    const SearchContext context = contextOf(lists, slot.list);
     Reconstructed result = reconstructNearest(context, output);
     if (result.outcome == Outcome::needsVisibility) {
         ++counts.visibility;
@@ -120,7 +130,7 @@ void CpuChunk::runSlot(const Slot& slot, Counts& counts) {
 }
 
 void CpuChunk::redo(std::span<const uint> indices, ReconstructReport& report) {
-    lists = makeTileLists(bins_, layout_, groups_, 2 * bins_.grid.radiusPx);
+    lists = makeLists(2 * bins_.grid.radiusPx, lensBounds);
     const int width = layout_.regionSize.x;
     for (const uint index : indices) {
         const int plane = int(index / dense.region.area()), pixel = int(index % dense.region.area());
@@ -145,10 +155,11 @@ void CpuChunk::widen(ReconstructReport& report) {
     float radius = bins_.grid.radiusPx;
     for (int step = 0; step < kWidenings && !holes.empty(); ++step) {
         radius *= 2;
-        const TileLists wide = makeTileLists(bins_, layout_, groups_, 2 * radius);
+        std::vector<float> lensTiles;
+        const TileLists wide = makeLists(2 * radius, lensTiles);
         std::erase_if(holes, [&](const Slot& slot) {
             const Output output = at(slot);
-            const Reconstructed result = resolveVisibility(contextOf(bins_, wide, slot.list), output, radius);
+            const Reconstructed result = resolveVisibility(contextOf(wide, slot.list), output, radius);
             store(slot, output, result);
             return result.outcome == Outcome::resolved;
         });

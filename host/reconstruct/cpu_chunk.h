@@ -3,6 +3,7 @@
 #include "base/monitor.h"
 #include "reconstruct/film_buffer.h"
 #include "reconstruct/layers.h"
+#include "reconstruct/lens_tiles.h"
 #include "reconstruct/plan.h"
 #include "reconstruct/search.h"
 
@@ -14,9 +15,10 @@ namespace slant {
 /// The outputs of a chunk of lens groups over one band.
 class CpuChunk {
 public:
-    /// Outputs come from `map` where it serves, unless it is null.
-    CpuChunk(const Bins& bins, const LayerMap* map, const OutputPattern& pattern, const Band& band,
-             std::uint64_t seed, std::size_t firstGroup, std::size_t groupCount);
+    /// Outputs come from `map` where it serves, unless it is null; they look through `lens` unless it is
+    /// empty.
+    CpuChunk(const Bins& bins, const LayerMap* map, const LensMap& lens, const OutputPattern& pattern,
+             const Band& band, std::uint64_t seed, std::size_t firstGroup, std::size_t groupCount);
 
     /// Lists, then every output; progress in outputs. Adds to the counts of `report`.
     void run(Monitor& monitor, ReconstructReport& report);
@@ -27,8 +29,9 @@ public:
 
     DenseSamples dense;
     TileLists lists;
-    std::vector<uint> rungs;      ///< of each list, see kSharpRung
-    std::vector<uint> leftPixels; ///< two words a list: bits of the tile's pixels searched for in the bins
+    std::vector<float> lensBounds; ///< that the lists are from, through a lens map
+    std::vector<uint> rungs;       ///< of each list, see kSharpRung
+    std::vector<uint> leftPixels;  ///< two words a list: bits of the tile's pixels searched for in the bins
 
 private:
     /// Where an output is stored, and in which list its bricks stand.
@@ -42,6 +45,8 @@ private:
         std::vector<Slot> holes;
     };
 
+    TileLists makeLists(float marginPx, std::vector<float>& lensTiles) const;
+    SearchContext contextOf(const TileLists& in, std::size_t list) const;
     Slot slotAt(ivec2 position, int output) const;
     Output at(const Slot& slot) const;
     void store(const Slot& slot, const Output& output, const Reconstructed& result);
@@ -53,8 +58,10 @@ private:
 
     const Bins& bins_;
     const LayerMap* map_;
+    const LensMap& lens_;
     const OutputPattern& pattern_;
     OutputLayout layout_;
+    std::size_t firstGroup_;
     std::span<const LensBox> groups_;
     std::vector<vec4> lensPoints_; ///< of all outputs of the pattern
     int firstOutput_, outputCount_;

@@ -1,7 +1,7 @@
 #include "reconstruct/cpu_reconstructor.h"
 
 #include "reconstruct/cpu_methods.h"
-#include "reconstruct/plan.h"
+#include "reconstruct/lens_tiles.h"
 #include "reconstruct/stage_timer.h"
 
 #include <array>
@@ -18,7 +18,7 @@ Bins CpuRun::bin() const {
     const Bins bins = [&] {
         StageTimer timer(report, "bin", "samples");
         timer.items = field.samples.size();
-        return binSamples(field, outputRegion(field.frame, film.filter()));
+        return binSamples(field, searchRegionOf(field, film.filter()));
     }();
     observe("bin.bricks", bins.bricks);
     observe("bin.cells", bins.cellStart);
@@ -29,8 +29,15 @@ Bins CpuRun::bin() const {
 
 Image CpuReconstructor::reconstruct(const LightField& field, const ReconstructOptions& options,
                                     Monitor& monitor, ReconstructReport& report, StageObserver* observer) {
-    CpuRun run{field,  options,  monitor,
-               report, observer, FilmBuffer(field.frame, makeFilterTable(options.filter))};
+    LightField scenic;
+    const bool throughLens = usesOutputs(options.method) && !field.lensMap.empty();
+    if (throughLens) scenic = onSceneSide(field);
+    CpuRun run{throughLens ? scenic : field,
+               options,
+               monitor,
+               report,
+               observer,
+               FilmBuffer(field.frame, makeFilterTable(options.filter))};
     kMethods.at(std::size_t(options.method))(run);
     run.observe("film", run.film.sums());
     return run.film.toImage(report.emptyPixels);

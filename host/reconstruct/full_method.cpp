@@ -29,7 +29,7 @@ void fullMethod(CpuRun& run) {
     const Rect& frame = run.field.frame;
     const OutputPattern pattern = makeOutputPattern(options.outputsPerPixel, largestSlope(bins.grid),
                                                     options.lensScale, apertureOf(run.field, options));
-    const bool layered = options.method == Method::ladder;
+    const bool layered = usesLayers(run.field, options.method);
     const float reach = mapReach(bins.grid, options.lensScale);
     const int maxRows =
         layered ? mapRows(frame, reach, options.memoryBytes / 2) : std::numeric_limits<int>::max();
@@ -43,13 +43,15 @@ void fullMethod(CpuRun& run) {
         for (std::size_t group = 0; group < pattern.groups.size(); group += plan.groupsPerChunk) {
             const std::size_t count =
                 std::min<std::size_t>(plan.groupsPerChunk, pattern.groups.size() - group);
-            CpuChunk chunk(bins, map ? &*map : nullptr, pattern, band, run.options.seed, group, count);
+            CpuChunk chunk(bins, map ? &*map : nullptr, run.field.lensMap, pattern, band, run.options.seed,
+                           group, count);
             {
                 StageTimer timer(run.report, "reconstruct", "outputs");
                 chunk.run(run.monitor, run.report);
                 timer.items = chunk.dense.samples.size();
                 timer.bytes = chunk.dense.samples.size() * sizeof(vec4);
             }
+            if (!run.field.lensMap.empty()) run.observe("lists.lens", chunk.lensBounds);
             run.observe("lists.start", chunk.lists.start);
             run.observe("lists.bricks", chunk.lists.bricks);
             if (map) {

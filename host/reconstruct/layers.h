@@ -15,6 +15,12 @@
 
 namespace slant {
 
+/// Whether a method takes outputs of the field from a layer map. Through a lens of many surfaces it does not:
+/// there every output has its own metric and its own part of a distorted picture.
+inline bool usesLayers(const LightField& field, Method method) {
+    return method == Method::ladder && field.lensMap.empty();
+}
+
 struct Rung {
     std::vector<Cluster> clusters; ///< front to back; empty where outputs have to be searched for in the bins
     bool sharp = false; ///< one of them is in focus: each output counts at its own place in the pixel

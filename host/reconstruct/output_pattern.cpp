@@ -52,7 +52,7 @@ uint morton(uint column, uint row) {
 }
 
 /// Cells of the lens under the entries [first, last), as one rectangle of [-1, 1]^2.
-LensBox groupBox(const OutputPattern& pattern, std::size_t first, std::size_t last) {
+LensBox cellsOf(const OutputPattern& pattern, std::size_t first, std::size_t last) {
     vec2 low(2), high(-2);
     for (std::size_t i = first; i < last; ++i) {
         const uint cell = pattern.entries[i].w;
@@ -61,8 +61,7 @@ LensBox groupBox(const OutputPattern& pattern, std::size_t first, std::size_t la
         low = glm::min(low, corner);
         high = glm::max(high, corner + 2.f / vec2(pattern.lensCells));
     }
-    const LensBox box = pattern.aperture.box(low, high);
-    return {pattern.lensScale * box.min, pattern.lensScale * box.max};
+    return {low, high};
 }
 
 /// The lens group of 2^bits of M outputs is about 2 sqrt(2^bits / M) lens radii wide; what it sees spreads by
@@ -115,8 +114,11 @@ OutputPattern makeOutputPattern(int outputsPerPixel, float slopePx, float lensSc
     });
     pattern.groupBits = groupBitsFor(outputsPerPixel, lensScale * slopePx);
     const auto size = std::size_t(pattern.groupSize());
-    for (std::size_t first = 0; first < pattern.entries.size(); first += size)
-        pattern.groups.push_back(groupBox(pattern, first, first + size));
+    for (std::size_t first = 0; first < pattern.entries.size(); first += size) {
+        pattern.cells.push_back(cellsOf(pattern, first, first + size));
+        const LensBox box = pattern.aperture.box(pattern.cells.back().min, pattern.cells.back().max);
+        pattern.groups.push_back({pattern.lensScale * box.min, pattern.lensScale * box.max});
+    }
     return pattern;
 }
 
@@ -135,6 +137,16 @@ Output outputAt(ivec2 pixel, int output, const OutputPattern& pattern, uint seed
     o.t = float(qt) * (1.f / 16777216.f);
     o.positionCode = float(qx * uint(kSubpixels) + qy);
     return o;
+}
+
+void seeThrough(const LensMap& lens, Output& output) {
+    const ScenicPlace place = lens.at(output.xy, output.uv);
+    output.throughLens = true;
+    output.xy = place.xy;
+    output.uv = place.uv;
+    output.weight = place.weight;
+    output.filmMetric = place.filmMetric;
+    output.extent = place.extent;
 }
 
 } // namespace slant

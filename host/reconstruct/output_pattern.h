@@ -6,6 +6,7 @@
 // Owen-scrambled for each pixel. All of it is integer arithmetic and exact in GLSL too.
 #pragma once
 #include "camera/aperture.h"
+#include "camera/lens_map.h"
 #include "shared/reconstruct.h"
 
 #include <bit>
@@ -21,6 +22,7 @@ struct OutputPattern {
     Aperture aperture;           ///< what that disc lets through
     int groupBits = 0;           ///< 2^groupBits consecutive entries make a group
     std::vector<LensBox> groups; ///< lens positions of each group
+    std::vector<LensBox> cells;  ///< the same as parts of the square [-1, 1]^2 that concentricDisc maps
 
     int outputsPerPixel() const { return int(entries.size()); }
     int groupSize() const { return 1 << groupBits; }
@@ -45,7 +47,22 @@ struct Output {
     vec2 uv; ///< in the disc of radius lensScale, where the aperture is open
     float t;
     float positionCode; ///< place in its pixel: qx * kSubpixels + qy, exact in a float
+
+    // Set by seeThrough.
+    bool throughLens = false;
+    float weight = 1; ///< of the radiance
+    vec3 filmMetric{1, 0, 1};
+    vec2 extent{1};
 };
+
+/// Takes an output of the film to the scene's side of a lens, where samples are searched (camera/lens_map.h).
+void seeThrough(const LensMap& lens, Output& output);
+
+/// From a distance on the scene's side to one on the film.
+inline vec2 onFilm(const Output& output, vec2 offset) {
+    const vec3& m = output.filmMetric;
+    return vec2(m.x * offset.x + m.y * offset.y, m.y * offset.x + m.z * offset.y);
+}
 
 /// The same arithmetic as lib/output_pattern.glsl.
 Output outputAt(ivec2 pixel, int output, const OutputPattern& pattern, uint seed);

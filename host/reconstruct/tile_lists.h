@@ -3,6 +3,7 @@
 #include "reconstruct/bins.h"
 #include "reconstruct/output_pattern.h"
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,12 @@ struct TileLists {
     std::vector<uint> bricks;
 };
 
+/// Pinhole positions of its samples; those of the rim reach to kFarPx.
+struct BrickBox {
+    vec2 low, high;
+};
+BrickBox boxOf(const Brick& brick, const GridLayout& grid);
+
 /// Tiles whose outputs, through the lens positions of `box`, can see a sample of `brick` within marginPx:
 /// half-open, in tiles, clipped to the layout; empty where last <= first. As lib/grid.glsl.
 struct TileRange {
@@ -26,5 +33,10 @@ TileRange tilesSeeing(const Brick& brick, const GridLayout& grid, const OutputLa
 
 TileLists makeTileLists(const Bins& bins, const OutputLayout& layout, std::span<const LensBox> groups,
                         float marginPx);
+
+/// The same where tiles see a brick through a group in another way.
+using TilesOfBrick = std::function<TileRange(const Brick& brick, std::size_t group)>;
+TileLists makeTileLists(const Bins& bins, const OutputLayout& layout, std::size_t groups,
+                        const TilesOfBrick& tilesOf);
 
 } // namespace slant

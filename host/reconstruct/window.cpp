@@ -60,7 +60,8 @@ std::size_t collect(const WindowSamples& samples, const WindowSearch& search, iv
         const uint end = samples.pixelStart[row + std::size_t(last.x) + 1];
         for (uint record = begin; record < end; ++record) {
             const vec4& position = samples.positions[record];
-            const vec2 offset = vec2(position.x, position.y) + position.z * output.uv - output.xy;
+            vec2 offset = vec2(position.x, position.y) + position.z * output.uv - output.xy;
+            if (output.throughLens) offset = onFilm(output, offset);
             const float distance2 = offset.x * offset.x + offset.y * offset.y;
             if (distance2 < nearest2) {
                 nearest2 = distance2;

@@ -18,11 +18,11 @@ void addTo(ReconstructReport& report, const std::array<std::uint64_t, 4>& counts
 
 } // namespace
 
-WindowChunk::WindowChunk(const WindowSamples& samples, const WindowSearch& search,
+WindowChunk::WindowChunk(const WindowSamples& samples, const WindowSearch& search, const LensMap& lens,
                          const OutputPattern& pattern, const Band& band, std::uint64_t seed,
                          std::size_t firstGroup, std::size_t groupCount)
-    : samples_(samples), search_(search), pattern_(pattern), layout_(layoutOf(band, pattern, seed)),
-      firstOutput_(int(firstGroup) << pattern.groupBits) {
+    : samples_(samples), search_(search), lens_(lens), pattern_(pattern),
+      layout_(layoutOf(band, pattern, seed)), firstOutput_(int(firstGroup) << pattern.groupBits) {
     dense.region = band.region;
     dense.samples.resize(band.region.area() * (groupCount << pattern.groupBits));
 }
@@ -40,9 +40,12 @@ WindowChunk::Counts WindowChunk::look(std::size_t count, const IndexAt& indexAt,
             const std::size_t index = indexAt(i), place = index % area;
             const ivec2 pixel = layout_.regionOrigin + ivec2(int(place % width), int(place / width));
             const int k = firstOutput_ + int(index / area);
-            const Output output = outputAt(pixel, k, pattern_, layout_.seed);
-            const WindowResult result = lookThroughWindow(samples_, search_, pixel, output, scratch);
-            dense.samples[index] = vec4(result.rgb, output.positionCode);
+            Output output = outputAt(pixel, k, pattern_, layout_.seed);
+            if (!lens_.empty()) seeThrough(lens_, output);
+            const WindowResult result = output.weight > 0
+                                            ? lookThroughWindow(samples_, search_, pixel, output, scratch)
+                                            : WindowResult{WindowOutcome::found};
+            dense.samples[index] = vec4(output.weight * result.rgb, output.positionCode);
             ++part[std::size_t(result.outcome)];
         }
         if (monitor) monitor->advance(last - first);

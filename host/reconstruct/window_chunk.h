@@ -12,8 +12,10 @@ namespace slant {
 
 class WindowChunk {
 public:
-    WindowChunk(const WindowSamples& samples, const WindowSearch& search, const OutputPattern& pattern,
-                const Band& band, std::uint64_t seed, std::size_t firstGroup, std::size_t groupCount);
+    /// Outputs look through `lens` unless it is empty.
+    WindowChunk(const WindowSamples& samples, const WindowSearch& search, const LensMap& lens,
+                const OutputPattern& pattern, const Band& band, std::uint64_t seed, std::size_t firstGroup,
+                std::size_t groupCount);
 
     /// Every output; progress in outputs. Adds to the counts of `report`.
     void run(Monitor& monitor, ReconstructReport& report);
@@ -32,6 +34,7 @@ private:
 
     const WindowSamples& samples_;
     WindowSearch search_;
+    const LensMap& lens_;
     const OutputPattern& pattern_;
     OutputLayout layout_;
     int firstOutput_;

@@ -21,7 +21,8 @@ void windowMethod(CpuRun& run) {
         for (std::size_t group = 0; group < pattern.groups.size(); group += plan.groupsPerChunk) {
             const std::size_t count =
                 std::min<std::size_t>(plan.groupsPerChunk, pattern.groups.size() - group);
-            WindowChunk chunk(samples, search, pattern, band, run.options.seed, group, count);
+            WindowChunk chunk(samples, search, run.field.lensMap, pattern, band, run.options.seed, group,
+                              count);
             {
                 StageTimer timer(run.report, "reconstruct", "outputs");
                 chunk.run(run.monitor, run.report);

@@ -53,7 +53,6 @@ void BlockTracer::generate(int sample) {
             s.u = seen.lens.x;
             s.v = seen.lens.y;
             s.t = point.t;
-            slopes_[lane] = seen.slope;
             weights_[lane] = seen.weight;
             // Where the lens lets nothing through, the film is black, in focus.
             const float tMax = seen.weight > 0 ? std::numeric_limits<float>::infinity() : 0;
@@ -98,13 +97,13 @@ void BlockTracer::store(int i, int sample) {
     const SurfaceHit& hit = hits_[lane];
     LightFieldSample s = samples_[lane];
     s.w = hit.t;
-    s.slope = slopes_[lane](hit.t);
+    s.slope = job_.camera.slopeModel()(hit.t);
     s.alpha = hit.hit() ? 1.f : 0.f;
     glm::vec3 radiance = exposed(job_.scene.film, weights_[lane] * paths_[lane].radiance);
     s.r = radiance.r;
     s.g = radiance.g;
     s.b = radiance.b;
-    s.unused = 0;
+    s.areaExcess = 0;
     std::size_t pixel = std::size_t(y(i) - job_.pixels.y0) * std::size_t(job_.pixels.width()) +
                         std::size_t(x(i) - job_.pixels.x0);
     std::size_t index = pixel * std::size_t(job_.count) + std::size_t(sample - job_.firstSample);

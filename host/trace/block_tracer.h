@@ -51,7 +51,6 @@ private:
     std::array<float, kLanes> lastX_, lastY_; ///< largest raster positions inside the pixels
     std::array<LightFieldSample, kLanes> samples_;
     std::array<AuxiliarySample, kLanes> auxiliary_;
-    std::array<SlopeModel, kLanes> slopes_;
     std::array<float, kLanes> weights_; ///< of the radiance
     std::array<Ray, kLanes> rays_;
     std::array<SurfaceHit, kLanes> hits_;

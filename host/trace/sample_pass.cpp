@@ -69,10 +69,31 @@ struct Reach {
         float radius = std::abs(s.slope);
         if (!std::isfinite(radius)) return;
         float x = s.x - s.slope * s.u, y = s.y - s.slope * s.v;
-        left = std::max(left, float(frame.x0) - (x - radius));
-        right = std::max(right, x + radius - float(frame.x1));
-        top = std::max(top, float(frame.y0) - (y - radius));
-        bottom = std::max(bottom, y + radius - float(frame.y1));
+        include({x - radius, y - radius}, {x + radius, y + radius}, frame);
+    }
+    /// Through a lens: where the sample's point is seen from the rim of its pupil.
+    void add(const LightFieldSample& s, Rect frame, const LensMap& lens) {
+        // Nothing moves by more than this many slopes.
+        const float most = 3 * std::abs(s.slope);
+        if (!(s.x - most < float(frame.x0) || s.x + most > float(frame.x1) || s.y - most < float(frame.y0) ||
+              s.y + most > float(frame.y1)))
+            return;
+        const glm::vec2 raster(s.x, s.y);
+        const ScenicPlace here = lens.at(raster, {s.u, s.v});
+        if (!(here.weight > 0) || !std::isfinite(s.slope)) return;
+        const glm::vec3& m = here.filmMetric;
+        for (const glm::vec2 rim : {glm::vec2(1, 0), glm::vec2(-1, 0), glm::vec2(0, 1), glm::vec2(0, -1)}) {
+            const glm::vec2 moved = 1.1f * s.slope * (lens.at(raster, rim).uv - here.uv);
+            const glm::vec2 seen =
+                raster + glm::vec2(m.x * moved.x + m.y * moved.y, m.y * moved.x + m.z * moved.y);
+            include(seen, seen, frame);
+        }
+    }
+    void include(glm::vec2 low, glm::vec2 high, Rect frame) {
+        left = std::max(left, float(frame.x0) - low.x);
+        right = std::max(right, high.x - float(frame.x1));
+        top = std::max(top, float(frame.y0) - low.y);
+        bottom = std::max(bottom, high.y - float(frame.y1));
     }
     void add(const Reach& o) {
         left = std::max(left, o.left);
@@ -85,12 +106,17 @@ struct Reach {
 } // namespace
 
 Rect boundsWithOverscan(Rect frame, std::span<const LightFieldSample> samples, int samplesPerPixel,
-                        int limitPx, int& wantedPx) {
+                        int limitPx, int& wantedPx, const LensMap& lens) {
     Reach reach;
     std::mutex mutex;
     parallelFor(0, samples.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
         Reach local;
-        for (std::size_t i = first; i < last; ++i) local.add(samples[i], frame);
+        for (std::size_t i = first; i < last; ++i) {
+            if (lens.empty())
+                local.add(samples[i], frame);
+            else
+                local.add(samples[i], frame, lens);
+        }
         const std::lock_guard lock(mutex);
         reach.add(local);
     });
@@ -109,6 +135,7 @@ LightField traceLightField(const Tracer& tracer, const Scene& scene, const Sampl
                            Monitor& monitor) {
     const int spp = options.samplesPerPixel;
     const Rect frame = scene.film.crop;
+    const LensMap lensMap = tracer.camera().lensMap();
     auto trace = [&](Rect pixels, Samples& into) {
         tracer.trace(pixels, 0, spp, spp, options.seed, into.light, into.auxiliary, monitor);
     };
@@ -119,7 +146,7 @@ LightField traceLightField(const Tracer& tracer, const Scene& scene, const Sampl
     monitor.endStage();
 
     int limit = std::max(scene.film.xResolution, scene.film.yResolution) / 2, wanted = 0;
-    const Rect bounds = boundsWithOverscan(frame, inFrame.light, spp, limit, wanted);
+    const Rect bounds = boundsWithOverscan(frame, inFrame.light, spp, limit, wanted, lensMap);
     if (wanted > limit)
         monitor.warn(
             fmt::format("blur reaches {} pixels beyond the frame; the overscan is limited to {} pixels, so "
@@ -145,7 +172,8 @@ LightField traceLightField(const Tracer& tracer, const Scene& scene, const Sampl
             tracer.camera().slopeModel(),
             std::move(all.light),
             std::move(all.auxiliary),
-            tracer.camera().aperture()};
+            tracer.camera().aperture(),
+            lensMap};
 }
 
 } // namespace slant

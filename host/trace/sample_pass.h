@@ -22,6 +22,6 @@ LightField traceLightField(const Tracer& tracer, const Scene& scene, const Sampl
 /// The bounds for a frame whose samples are given (any order); sides of the overscan are at most `limitPx`.
 /// Sets `wantedPx` to the widest side that would be needed.
 Rect boundsWithOverscan(Rect frame, std::span<const LightFieldSample> samples, int samplesPerPixel,
-                        int limitPx, int& wantedPx);
+                        int limitPx, int& wantedPx, const LensMap& lens = {});
 
 } // namespace slant

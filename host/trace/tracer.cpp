@@ -22,33 +22,27 @@ int floorDivide(int a, int b) {
 constexpr int kDepthProbes = 32;
 constexpr double kOutlierShare = 0.02;
 
-/// Depths that the middle of the lens sees, nearest and farthest but for outliers; the farthest may be
-/// infinite.
-std::pair<double, double> depthRange(const CompoundLens& lens, const Geometry& geometry, Rect film) {
+} // namespace
+
+Tracer::Tracer(const Scene& scene, Monitor& monitor)
+    : scene_(scene), camera_(scene), geometry_(scene, monitor), shading_(scene) {}
+
+std::pair<double, double> Tracer::depthRange() const {
     std::vector<float> depths;
     for (int i = 0; i < kDepthProbes * kDepthProbes; ++i) {
         const glm::vec2 part((float(i % kDepthProbes) + 0.5f) / kDepthProbes,
                              (float(i / kDepthProbes) + 0.5f) / kDepthProbes);
-        const glm::vec2 raster = glm::vec2(film.x0, film.y0) + part * glm::vec2(film.width(), film.height());
-        const CameraSample sample = lens.sample(raster, {0.5f, 0.5f});
+        const glm::vec2 raster = part * glm::vec2(scene_.film.xResolution, scene_.film.yResolution);
+        const CameraSample sample = camera_.visit([&](const auto& camera) {
+            return camera.sample(raster, {0.5f, 0.5f});
+        });
         SurfaceHit hit;
-        if (sample.weight > 0) geometry.intersect({sample.ray.origin, sample.ray.direction}, hit);
+        if (sample.weight > 0) geometry_.intersect({sample.ray.origin, sample.ray.direction}, hit);
         depths.push_back(hit.t);
     }
     std::sort(depths.begin(), depths.end());
     const std::size_t outliers = std::size_t(kOutlierShare * double(depths.size()));
     return {double(depths[outliers]), double(depths[depths.size() - 1 - outliers])};
-}
-
-} // namespace
-
-Tracer::Tracer(const Scene& scene, Monitor& monitor)
-    : scene_(scene), camera_(scene), geometry_(scene, monitor), shading_(scene) {
-    if (CompoundLens* lens = camera_.compoundLens()) {
-        const auto [nearest, farthest] =
-            depthRange(*lens, geometry_, {0, 0, scene.film.xResolution, scene.film.yResolution});
-        if (std::isfinite(nearest)) lens->chooseSlopes(nearest, farthest);
-    }
 }
 
 void Tracer::trace(Rect pixels, int firstSample, int count, int samplesPerPixel, std::uint64_t seed,

@@ -9,6 +9,7 @@
 #include "trace/path.h"
 
 #include <span>
+#include <utility>
 
 namespace slant {
 
@@ -25,6 +26,10 @@ public:
     /// Error(usage) for sizes that do not fit, and what the monitor throws.
     void trace(Rect pixels, int firstSample, int count, int samplesPerPixel, std::uint64_t seed,
                std::span<LightFieldSample> out, std::span<AuxiliarySample> auxiliary, Monitor& monitor) const;
+
+    /// Depths that the middle of the lens sees, nearest and farthest but for outliers; either may be
+    /// infinite.
+    std::pair<double, double> depthRange() const;
 
     const Camera& camera() const { return camera_; }
     const Geometry& geometry() const { return geometry_; }

@@ -39,11 +39,9 @@ float widestRadius(Brick brick) { return float(brick.extent >> 12) * (1.0 / kRad
 
 int tileOf(float px) { return int(floor(clamp(px * (1.0 / float(kTileSize)), -1e6, 1e6))); }
 
-/// Tiles whose outputs, through lens positions of `box` (min, max), can see a sample of the brick: first.xy,
-/// last.zw, half-open; empty where last <= first.
-ivec4 tilesSeeing(Brick brick, GridLayout grid, OutputLayout outputs, vec4 box, float marginPx) {
+/// Pinhole positions of its samples: min, max.
+vec4 boxOf(Brick brick, GridLayout grid) {
     const float cellPx = 1.0 / grid.invCell;
-    const float ownMarginPx = min(marginPx, max(marginPx * widestRadius(brick), kLeastMarginPx));
     const ivec2 first = firstCell(brick), last = lastCell(brick);
     const ivec2 rim = grid.brickCount * grid.cellsPerBrick - 1;
     vec2 low = grid.origin + vec2(first) * cellPx;
@@ -52,6 +50,15 @@ ivec4 tilesSeeing(Brick brick, GridLayout grid, OutputLayout outputs, vec4 box, 
     if (first.y == 0) low.y = -kFarPx;
     if (last.x == rim.x) high.x = kFarPx;
     if (last.y == rim.y) high.y = kFarPx;
+    return vec4(low, high);
+}
+
+/// Tiles whose outputs, through lens positions of `box` (min, max), can see a sample of the brick: first.xy,
+/// last.zw, half-open; empty where last <= first.
+ivec4 tilesSeeing(Brick brick, GridLayout grid, OutputLayout outputs, vec4 box, float marginPx) {
+    const float ownMarginPx = min(marginPx, max(marginPx * widestRadius(brick), kLeastMarginPx));
+    const vec4 positions = boxOf(brick, grid);
+    const vec2 low = positions.xy, high = positions.zw;
     const vec2 a = brick.slopeMin * box.xy, b = brick.slopeMin * box.zw;
     const vec2 c = brick.slopeMax * box.xy, d = brick.slopeMax * box.zw;
     const vec2 shearMin = min(min(a, b), min(c, d));

@@ -9,7 +9,25 @@ struct Output {
     vec2 uv;
     float t;
     float positionCode;
+
+    // Set by seeThrough.
+    float weight; // of the radiance
+    vec3 filmMetric;
+    vec2 extent;
 };
+
+/// Outputs look through a lens of many surfaces: the samples are on its scene's side (host/camera/lens_map.h).
+layout(constant_id = 0) const bool kThroughLens = false;
+
+Output outputOnFilm(vec2 xy, vec2 uv, float t, float positionCode) {
+    return Output(xy, uv, t, positionCode, 1.0, vec3(1.0, 0.0, 1.0), vec2(1.0));
+}
+
+/// From a distance on the scene's side to one on the film.
+vec2 onFilm(Output o, vec2 offset) {
+    const vec3 m = o.filmMetric;
+    return vec2(m.x * offset.x + m.y * offset.y, m.y * offset.x + m.z * offset.y);
+}
 
 /// Nested uniform scramble of bit-reversed x (Laine and Karras 2011; constants of Burley 2020, listing 1).
 uint owenScramble(uint reversed, uint seed) {
@@ -28,7 +46,7 @@ uint seedOf(ivec2 pixel, uint seed) { return hash(uint(pixel.x) + hash(uint(pixe
 Output placed(ivec2 pixel, uvec4 entry, uint pixelSeed) {
     const uint qx = owenScramble(entry.x, hash(pixelSeed ^ 0xa511e9b3u)) >> 20;
     const uint qy = owenScramble(entry.y, hash(pixelSeed ^ 0x63d83595u)) >> 20;
-    return Output(vec2(pixel) + (vec2(float(qx), float(qy)) + 0.5) * (1.0 / float(kSubpixels)), vec2(0.0), 0.0,
-                  float(qx * uint(kSubpixels) + qy));
+    return outputOnFilm(vec2(pixel) + (vec2(float(qx), float(qy)) + 0.5) * (1.0 / float(kSubpixels)), vec2(0.0), 0.0,
+                        float(qx * uint(kSubpixels) + qy));
 }
 #endif

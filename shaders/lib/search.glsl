@@ -19,7 +19,7 @@ bool forEachCandidate(GridLayout grid, Output o, float radius, float mostNarrowi
     for (uint entry = listBegin; entry < listEnd && sweep.running; ++entry) {
         const Brick brick = listedBrick(entry);
         const float ownRadius = radius * max(widestRadius(brick), 1.0 / mostNarrowing);
-        const float reach = ownRadius * grid.invCell;
+        const vec2 reach = ownRadius * grid.invCell * o.extent;
         const vec2 a = brick.slopeMin * shear, b = brick.slopeMax * shear;
         const ivec2 first = max(cellAt(grid, center - max(a, b) - reach), firstCell(brick));
         const ivec2 last = min(cellAt(grid, center - min(a, b) + reach), lastCell(brick));
@@ -36,7 +36,8 @@ bool forEachCandidate(GridLayout grid, Output o, float radius, float mostNarrowi
             if (iterations > kMaxLoopIterations) return false;
             for (uint record = begin; record < end && sweep.running; ++record) {
                 const vec4 position = positionAt(record);
-                const vec2 offset = position.xy + position.z * o.uv - o.xy;
+                vec2 offset = position.xy + position.z * o.uv - o.xy;
+                if (kThroughLens) offset = onFilm(o, offset);
                 const float distance2 = offset.x * offset.x + offset.y * offset.y;
                 if (!(distance2 < ownRadius * ownRadius)) continue;
                 const vec4 radiance = radianceAt(record);

@@ -34,6 +34,8 @@ SLANT_SHARED_CONSTANT float kWholePixel = 16777216.0f; // kSubpixels^2
 SLANT_SHARED_CONSTANT int kMaxLoopIterations = 4000;
 /// The least part of the lens from which a sample that was seen is taken to be visible.
 SLANT_SHARED_CONSTANT float kLeastVisible = 0.0625f;
+/// Slopes at which bounds of tiles are kept (host/reconstruct/lens_tiles.h).
+SLANT_SHARED_CONSTANT int kLensTileSlopes = 9;
 /// Sort key of a sample that no output can use.
 SLANT_SHARED_CONSTANT uint kNotBinned = 0xffffffffu;
 

@@ -27,9 +27,9 @@ TEST_P(LensScene, rendersAsBrightAsItsReferenceFromTheCentreToTheCorner) {
         const double truth = mean({"reference", "--spp", "256"});
         EXPECT_GT(truth, 0.01) << crop;
         EXPECT_LT(truth, 2) << crop;
-        EXPECT_NEAR(mean({"render", "--spp", "16", "--method", "box", "--device", "cpu"}) / truth, 1, 0.05)
+        EXPECT_NEAR(mean({"render", "--spp", "64", "--method", "box", "--device", "cpu"}) / truth, 1, 0.03)
             << crop;
-        EXPECT_NEAR(mean({"render", "--spp", "16", "--out-spp", "32", "--device", "cpu"}) / truth, 1, 0.05)
+        EXPECT_NEAR(mean({"render", "--spp", "64", "--out-spp", "32", "--device", "cpu"}) / truth, 1, 0.03)
             << crop;
     }
 }

@@ -1,6 +1,7 @@
 // Light field files: what is written is read again to the bit, and what others write is understood.
 #include "lightfield/summary.h"
 #include "support/deep_file.h"
+#include "support/expect_error.h"
 #include "support/field_samples.h"
 #include "support/scene_text.h"
 #include "support/temp_dir.h"
@@ -35,9 +36,9 @@ void expectSame(const FieldFile& got, const FieldFile& expected) {
     EXPECT_EQ(got.field.bounds, expected.field.bounds);
     EXPECT_EQ(got.field.frame, expected.field.frame);
     EXPECT_EQ(got.field.samplesPerPixel, expected.field.samplesPerPixel);
-    for (float SlopeModel::*constant :
-         {&SlopeModel::c1, &SlopeModel::c2, &SlopeModel::c3, &SlopeModel::d1, &SlopeModel::d2})
-        EXPECT_EQ(got.field.slopeModel.*constant, expected.field.slopeModel.*constant);
+    EXPECT_EQ(got.field.slopeModel.c1, expected.field.slopeModel.c1);
+    EXPECT_EQ(got.field.slopeModel.c2, expected.field.slopeModel.c2);
+    EXPECT_TRUE(got.field.lensMap.texels() == expected.field.lensMap.texels());
     EXPECT_TRUE(test::sameBits(got.field, expected.field));
     EXPECT_EQ(got.details.film, expected.details.film);
     EXPECT_EQ(metadataOf(got.field, got.details), metadataOf(expected.field, expected.details));
@@ -96,6 +97,45 @@ TEST_F(FieldFiles, exrHoldsAnyNumberOfSamplesInEachPixel) {
     }
 }
 
+/// Of two radii and the fewest nodes.
+std::vector<vec4> smallMap() {
+    std::vector<vec4> texels{{3, 2, 0.25f, 2}, {0.125f, 2, 1, 1}, {0, 1, 1.5f, 0.7f}, {4, 1, 1.5f, 0.1f}};
+    for (int i = 0; i < 8; ++i) texels.emplace_back(0.1f * float(i), -1 / 3.f, 1e-20f, 0.5f);
+    return texels;
+}
+
+TEST_F(FieldFiles, everyFormatKeepsALensMap) {
+    FieldFile file = richField();
+    file.field.lensMap = LensMap(smallMap());
+    for (const char* name : {"a.exr", "a.bin", "a.txt"}) {
+        write(name, file);
+        expectSame(read(name), file);
+    }
+}
+
+TEST_F(FieldFiles, lensMapsThatAreNoneAreRefused) {
+    const auto refused = [&](const char* message, const auto& damage) {
+        std::vector<vec4> texels = smallMap();
+        damage(texels);
+        FieldFile file = richField();
+        file.field.lensMap = LensMap(texels);
+        for (const char* name : {"a.exr", "a.txt"}) {
+            write(name, file);
+            test::expectError(ErrorCode::badInput, message, [&] { read(name); });
+        }
+    };
+    refused("another length", [](auto& texels) { texels.pop_back(); });
+    refused("another length", [](auto& texels) { texels[1].y = 3; });
+    refused("too short", [](auto& texels) { texels.resize(1); });
+    refused("counts or steps", [](auto& texels) { texels[0].w = 1.5f; });
+    refused("counts or steps", [](auto& texels) { texels[0].z = -1; });
+    refused("counts or steps", [](auto& texels) { texels[1].w = 1e30f; });
+    refused("below 0", [](auto& texels) { texels[2].y = 0; });
+    refused("below 0", [](auto& texels) { texels[3].w = -1; });
+    refused("not finite", [](auto& texels) { texels[5].x = std::numeric_limits<float>::infinity(); });
+    test::expectError(ErrorCode::badInput, "no fours", [&] { lensMapOf({"a"}, std::array{1.f, 2.f}); });
+}
+
 TEST_F(FieldFiles, everyFilterAndAnEmptyDescription) {
     FieldFile file = richField();
     for (const PixelFilter& filter : {PixelFilter{FilterKind::box, {0.5f, 0.25f}},
@@ -118,8 +158,6 @@ TEST_F(FieldFiles, exrKeepsAlbedoNormalsAndSlopesOfTheirOwn) {
         file.field.auxiliary.push_back({vector(), vector()});
     for (std::size_t i = 0; i < file.field.samples.size(); i += 7) file.field.samples[i].slope = 5 + float(i);
     EXPECT_TRUE(hasOwnSlopes(file.field));
-    file.field.slopeModel.c3 = 0.5f;
-    file.field.slopeModel.d2 = -0.25f;
     write("a.exr", file);
     expectSame(read("a.exr"), file);
     EXPECT_THROW(write("a.txt", file), Error);

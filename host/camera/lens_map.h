@@ -1,0 +1,56 @@
+// Where a lens of many surfaces sends its rays: from film and exit pupil to the scene's side.
+//
+// On the scene's side rays are straight, whatever the lens does to them. So a ray is described there by where
+// it meets two planes: `uv`, the plane of the entrance pupil, in units of its radius on the axis; and `xy`,
+// the plane in focus, in pixels as seen from the pupil's centre. A fixed point at depth w then moves along an
+// exact line, of slope C1 / w + C2 as through a thin lens, distortion, aberrations and the wandering of the
+// pupil notwithstanding; and xy is near to the raster position, but for these.
+//
+// On the film's side a ray is given by its raster position and by a place in the unit disc, which stands for
+// the pupil as it is seen from there, cat's eye and all, equal areas for equal shares of light. The lens is
+// symmetric about its axis, so that the map has three variables: film radius, and two for the disc. It is a
+// table, the same for all who use it, interpolated linearly: in coarse rings what aberrations do, in fine
+// ones the rest. Single floats and + - * / sqrt only, in the order of lib/lens_map.glsl.
+#pragma once
+#include "shared/lens_map.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace slant {
+
+/// A ray on the scene's side.
+struct ScenicPlace {
+    vec2 xy; ///< on the plane in focus, pixels
+    vec2 uv; ///< on the entrance pupil's plane, radii
+    /// Symmetric matrix (xx, xy, yy) that turns a short way there into one on the film.
+    vec3 filmMetric;
+    vec2 extent;  ///< half the size of a box around all that is within a pixel of the film
+    float weight; ///< irradiance of the film under radiance 1; 0: dark, and nothing else is set
+};
+
+class LensMap {
+public:
+    /// No map: the lens is thin, and xy and uv are what they are.
+    LensMap() = default;
+    /// From texels as shared/lens_map.h describes them; they have been checked.
+    explicit LensMap(std::vector<vec4> texels) : texels_(std::move(texels)) {}
+
+    bool empty() const { return texels_.empty(); }
+    const std::vector<vec4>& texels() const { return texels_; }
+
+    /// `lens` in the unit disc.
+    ScenicPlace at(vec2 raster, vec2 lens) const;
+
+private:
+    std::vector<vec4> texels_;
+};
+
+/// What is wrong with texels that are to be a map; nullptr if nothing is.
+const char* faultOf(const std::vector<vec4>& texels);
+
+class CompoundLens;
+
+LensMap makeLensMap(const CompoundLens& camera);
+
+} // namespace slant

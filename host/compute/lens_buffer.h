@@ -1,0 +1,21 @@
+// A lens map on the device, and the constant of the shaders that use it.
+#pragma once
+#include "camera/lens_map.h"
+#include "compute/buffer.h"
+
+#include <array>
+
+namespace slant {
+
+/// kThroughLens of lib/output_pattern.glsl.
+inline std::array<std::uint32_t, 1> throughLens(const LensMap& lens) {
+    return {lens.empty() ? 0u : 1u};
+}
+
+inline Buffer lensBuffer(Device& device, const LensMap& lens) {
+    Buffer buffer(device, TexelFormat::rgba32f, lens.texels().size());
+    buffer.upload(lens.texels());
+    return buffer;
+}
+
+} // namespace slant

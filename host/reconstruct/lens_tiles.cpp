@@ -1,0 +1,201 @@
+#include "reconstruct/lens_tiles.h"
+
+#include "base/parallel.h"
+#include "reconstruct/plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+namespace slant {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+/// Lens positions along one side of a group's part of the square, and places along one side of a tile.
+constexpr int kLensSteps = 3, kTileSteps = 2;
+/// Between the places that are looked at the map is curved: this much of what they span, and a pixel.
+constexpr float kBulge = 0.05f, kBulgePx = 1;
+
+/// Along x and y.
+struct Interval {
+    vec2 low{kInfinity}, high{-kInfinity};
+
+    void add(vec2 from, vec2 to) {
+        low = glm::min(low, from);
+        high = glm::max(high, to);
+    }
+};
+
+/// The places of a tile as a group sees them, on the scene's side; none where the film is dark.
+std::vector<Output> placesOf(const LensMap& lens, const OutputPattern& pattern, std::size_t group,
+                             vec2 corner) {
+    const LensBox& cells = pattern.cells[group];
+    std::vector<Output> places;
+    for (int i = 0; i < kLensSteps * kLensSteps; ++i) {
+        const vec2 part = vec2(float(i % kLensSteps), float(i / kLensSteps)) / float(kLensSteps - 1);
+        const vec2 uv = pattern.aperture.at(glm::mix(cells.min, cells.max, part));
+        for (int k = 0; k < kTileSteps * kTileSteps; ++k) {
+            const vec2 step = vec2(float(k % kTileSteps), float(k / kTileSteps)) / float(kTileSteps - 1);
+            Output output{corner + step * float(kTileSize), pattern.lensScale * uv, 0, 0};
+            seeThrough(lens, output);
+            if (output.weight > 0) places.push_back(output);
+        }
+    }
+    return places;
+}
+
+/// Slope of the k-th bounds.
+float slopeAt(const GridLayout& grid, int k) {
+    const float range = float(grid.bucketCount) / grid.invBucket;
+    return grid.slopeMin + range * (float(k) / float(kLensTileSlopes - 1));
+}
+
+/// Where a tile looks at one slope.
+Interval intervalOf(const std::vector<Output>& places, float slope, float marginPx) {
+    Interval seen;
+    for (const Output& output : places) {
+        const vec2 p = output.xy - slope * output.uv, margin = (marginPx + kBulgePx) * output.extent;
+        seen.add(p - margin, p + margin);
+    }
+    const vec2 bulge = kBulge * glm::max(seen.high - seen.low, vec2(0));
+    return {seen.low - bulge, seen.high + bulge};
+}
+
+void ascend(float* low, float* high, int count) {
+    for (int i = count - 2; i >= 0; --i) low[i] = std::min(low[i], low[i + 1]);
+    for (int i = 1; i < count; ++i) high[i] = std::max(high[i], high[i - 1]);
+}
+
+} // namespace
+
+std::vector<float> lensTileBounds(const LensMap& lens, const OutputPattern& pattern, std::size_t firstGroup,
+                                  std::size_t groupCount, const GridLayout& grid, const OutputLayout& layout,
+                                  float marginPx) {
+    const int columns = layout.tileCount.x, rows = layout.tileCount.y;
+    const std::size_t block = 2 * std::size_t(columns + rows);
+    std::vector<float> bounds(groupCount * kLensTileSlopes * block);
+    parallelFor(0, groupCount, 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t group = first; group < last; ++group) {
+            const auto at = [&](int slope) {
+                return bounds.data() + (group * kLensTileSlopes + std::size_t(slope)) * block;
+            };
+            for (int k = 0; k < kLensTileSlopes; ++k) {
+                std::fill_n(at(k), columns, kFarPx);
+                std::fill_n(at(k) + columns, columns, -kFarPx);
+                std::fill_n(at(k) + 2 * columns, rows, kFarPx);
+                std::fill_n(at(k) + 2 * columns + rows, rows, -kFarPx);
+            }
+            for (int y = 0; y < rows; ++y)
+                for (int x = 0; x < columns; ++x) {
+                    const vec2 corner(layout.regionOrigin + kTileSize * ivec2(x, y));
+                    const std::vector<Output> places = placesOf(lens, pattern, firstGroup + group, corner);
+                    for (int k = 0; k < kLensTileSlopes; ++k) {
+                        const Interval seen = intervalOf(places, slopeAt(grid, k), marginPx);
+                        float *column = at(k) + x, *row = at(k) + 2 * columns + y;
+                        column[0] = std::min(column[0], seen.low.x);
+                        column[columns] = std::max(column[columns], seen.high.x);
+                        row[0] = std::min(row[0], seen.low.y);
+                        row[rows] = std::max(row[rows], seen.high.y);
+                    }
+                }
+            for (int k = 0; k < kLensTileSlopes; ++k) {
+                ascend(at(k), at(k) + columns, columns);
+                ascend(at(k) + 2 * columns, at(k) + 2 * columns + rows, rows);
+            }
+        }
+    });
+    return bounds;
+}
+
+namespace {
+
+/// Bounds of a group, interpolated at the ends of a brick's slopes.
+struct BoundsAt {
+    std::span<const float> bounds;
+    int first, last;      ///< blocks of the slopes below
+    float part, lastPart; ///< towards the next ones
+    int step;             ///< from a slope to the next
+
+    float at(int begin, float t, int i) const {
+        const float a = bounds[std::size_t(begin + i)];
+        return a + t * (bounds[std::size_t(begin + step + i)] - a);
+    }
+    float low(int i) const { return glm::min(at(first, part, i), at(last, lastPart, i)); }
+    float high(int i) const { return glm::max(at(first, part, i), at(last, lastPart, i)); }
+};
+
+/// The tiles [x, y) of `count` whose bounds, from `offset` on, meet [from, to].
+ivec2 meeting(const BoundsAt& bounds, int offset, int count, float from, float to) {
+    ivec2 range(0);
+    for (int end = count; range.x < end;) {
+        const int middle = (range.x + end) / 2;
+        if (bounds.high(offset + count + middle) >= from)
+            end = middle;
+        else
+            range.x = middle + 1;
+    }
+    for (int end = count; range.y < end;) {
+        const int middle = (range.y + end) / 2;
+        if (bounds.low(offset + middle) > to)
+            end = middle;
+        else
+            range.y = middle + 1;
+    }
+    return range;
+}
+
+} // namespace
+
+TileRange tilesThroughLens(const Brick& brick, const GridLayout& grid, const OutputLayout& layout,
+                           std::span<const float> bounds, std::size_t group) {
+    const float steps = float(kLensTileSlopes - 1) * grid.invBucket / float(grid.bucketCount);
+    const float from = (brick.slopeMin - grid.slopeMin) * steps,
+                to = (brick.slopeMax - grid.slopeMin) * steps;
+    // Beyond the slopes of the grid nothing is known.
+    if (!(from > -0.01f && to < float(kLensTileSlopes - 1) + 0.01f)) return {ivec2(0), layout.tileCount};
+    const ivec2 tiles = layout.tileCount;
+    const int step = 2 * (tiles.x + tiles.y), begin = int(group) * kLensTileSlopes * step;
+    const int first = glm::clamp(int(from), 0, kLensTileSlopes - 2),
+              last = glm::clamp(int(to), 0, kLensTileSlopes - 2);
+    const BoundsAt at{
+        bounds, begin + first * step, begin + last * step, from - float(first), to - float(last), step};
+    const BrickBox box = boxOf(brick, grid);
+    const ivec2 columns = meeting(at, 0, tiles.x, box.low.x, box.high.x);
+    const ivec2 rows = meeting(at, 2 * tiles.x, tiles.y, box.low.y, box.high.y);
+    return {ivec2(columns.x, rows.x), ivec2(columns.y, rows.y)};
+}
+
+Rect searchRegionOf(const LightField& field, const FilterTable& filter) {
+    const Rect region = outputRegion(field.frame, filter);
+    if (field.lensMap.empty()) return region;
+    const float marginPx = widestSearchPx(densityOf(field));
+    const OutputPattern whole = makeOutputPattern(1, 0);
+    Interval seen;
+    float farthest = 1, widest = 1; // from the pupil's centre; pixels of the scene's side to one of the film
+    for (int y = region.y0; y < region.y1; y += kTileSize)
+        for (int x = region.x0; x < region.x1; x += kTileSize)
+            for (const Output& output : placesOf(field.lensMap, whole, 0, vec2(float(x), float(y)))) {
+                seen.add(output.xy, output.xy);
+                farthest = std::max(farthest, glm::length(output.uv));
+                widest = std::max({widest, output.extent.x, output.extent.y});
+            }
+    if (!(seen.low.x <= seen.high.x)) return region; // all dark
+    float slope = 0;
+    std::mutex mutex;
+    parallelFor(0, field.samples.size(), 1 << 15, [&](std::size_t first, std::size_t last) {
+        float local = 0;
+        for (std::size_t i = first; i < last; ++i)
+            if (std::isfinite(field.samples[i].slope))
+                local = std::max(local, std::abs(field.samples[i].slope));
+        const std::lock_guard lock(mutex);
+        slope = std::max(slope, local);
+    });
+    const vec2 span = seen.high - seen.low;
+    const float more = marginPx * (widest - 1) + slope * (farthest - 1) + kBulge * glm::max(span.x, span.y);
+    const vec2 low = glm::max(glm::floor(seen.low - more), -kFarPx),
+               high = glm::min(glm::ceil(seen.high + more), kFarPx);
+    return {int(low.x), int(low.y), int(high.x), int(high.y)};
+}
+
+} // namespace slant
