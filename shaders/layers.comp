@@ -1,5 +1,5 @@
 #version 460
-// The outputs of lists that the layer map serves: one invocation takes all those of a pixel. A pixel in which one of
+// The outputs of lists that the layer map serves: one invocation takes all those of a pixel. A list in which one of
 // them meets nothing is left to reconstruct.comp. As host/reconstruct/layers.cpp.
 #extension GL_GOOGLE_include_directive : require
 #include "lib/map_texel.glsl"
@@ -11,9 +11,8 @@ layout(set = 0, binding = 1) uniform textureBuffer clusters;
 layout(set = 0, binding = 2) uniform utextureBuffer texels;
 layout(set = 0, binding = 3) uniform textureBuffer lensPoints;
 layout(set = 0, binding = 4) uniform utextureBuffer pattern;
-layout(set = 0, binding = 5) uniform utextureBuffer rungs;
-layout(set = 0, binding = 6, r32ui) uniform uimageBuffer leftPixels;
-layout(set = 0, binding = 7, rgba32f) uniform writeonly imageBuffer dense;
+layout(set = 0, binding = 5, r32ui) uniform uimageBuffer rungs;
+layout(set = 0, binding = 6, rgba32f) uniform writeonly imageBuffer dense;
 layout(push_constant) uniform Push { LayerPush push; };
 
 struct Lookup {
@@ -112,13 +111,15 @@ void main() {
     const uvec3 tile = gl_WorkGroupID;
     const ivec2 position = ivec2(gl_GlobalInvocationID.xy), size = push.outputs.regionSize;
     const int list = (int(tile.z) * push.outputs.tileCount.y + int(tile.y)) * push.outputs.tileCount.x + int(tile.x);
-    const uint rung = texelFetch(rungs, list).x, clusterCount = rung & (kSharpRung - 1u);
-    if (clusterCount == 0u || position.x >= size.x || position.y >= size.y) return;
+    const uint rung = imageLoad(rungs, list).x, clusterCount = rung & (kSharpRung - 1u);
+    if (clusterCount == 0u) return;
     const bool sharp = (rung & kSharpRung) != 0u;
     const int groupSize = 1 << push.groupBits;
     const int clusterBegin = int(texelFetch(listStart, list).x);
     const int firstOutput = (int(push.firstGroup) + int(tile.z)) * groupSize, firstPlane = int(tile.z) * groupSize;
     const ivec2 pixel = push.outputs.regionOrigin + position;
+    // Positions outside the region are looked at too: whether a list is served must not depend on bands.
+    const bool inRegion = position.x < size.x && position.y < size.y;
     vec3 sum = vec3(0.0);
     for (int i = 0; i < groupSize; ++i) {
         Output o = outputOnFilm(vec2(pixel) + 0.5, vec2(0.0), 0.0, kWholePixel);
@@ -127,12 +128,12 @@ void main() {
             sum = vec3(0.0);
         }
         if (!look(o.xy, texelFetch(lensPoints, firstOutput + i).xy, clusterBegin, clusterCount, sum)) {
-            imageAtomicOr(leftPixels, 2 * list + int(gl_LocalInvocationIndex >> 5), 1u << (gl_LocalInvocationIndex & 31u));
+            imageStore(rungs, list, uvec4(0u));
             return;
         }
-        if (sharp)
+        if (sharp && inRegion)
             imageStore(dense, ((firstPlane + i) * size.y + position.y) * size.x + position.x, vec4(sum, o.positionCode));
     }
-    if (!sharp)
+    if (!sharp && inRegion)
         imageStore(dense, (firstPlane * size.y + position.y) * size.x + position.x, vec4(sum / float(groupSize), kWholePixel));
 }

@@ -13,11 +13,10 @@ layout(set = 0, binding = 8, r32ui) uniform uimageBuffer counters;
 layout(set = 0, binding = 9, r32ui) uniform writeonly uimageBuffer visibilityList;
 layout(set = 0, binding = 10, r32ui) uniform writeonly uimageBuffer overflowList;
 layout(set = 0, binding = 11) uniform utextureBuffer left; // lists to search for: tile x, y, lens group, list
-layout(set = 0, binding = 12) uniform utextureBuffer leftPixels; // of each list, two words: the tile's pixels to search for
-layout(set = 0, binding = 13) uniform textureBuffer apertureTable;
+layout(set = 0, binding = 12) uniform textureBuffer apertureTable;
 
 float apertureAt(int i) { return texelFetch(apertureTable, i).x; }
-layout(set = 0, binding = 14) uniform textureBuffer lensMap;
+layout(set = 0, binding = 13) uniform textureBuffer lensMap;
 
 vec4 lensMapAt(int texel) { return texelFetch(lensMap, texel); }
 #include "lib/output_pattern.glsl"
@@ -67,10 +66,8 @@ void main() {
     const uint pair = bitfieldExtract(place, 0, pairBits), quad = bitfieldExtract(place, pairBits, 2);
     const uint rest = bitfieldExtract(place, pairBits + 2, restBits), block = place >> (groupBits + 2);
     const uint k = (group << groupBits) + (rest << pairBits) + pair;
-    const ivec2 inTile = 2 * ivec2(block & 3u, block >> 2) + ivec2(quad & 1u, quad >> 1);
-    const int pixel = inTile.y * kTileSize + inTile.x;
-    if ((texelFetch(leftPixels, 2 * int(list) + (pixel >> 5)).x >> (pixel & 31) & 1u) == 0u) return;
-    const ivec2 position = kTileSize * ivec2(tile) + inTile;
+    const ivec2 position = kTileSize * ivec2(tile) + 2 * ivec2(block & 3u, block >> 2) +
+                           ivec2(quad & 1u, quad >> 1);
     if (position.x >= outputs.regionSize.x || position.y >= outputs.regionSize.y) return;
 
     const int index = push.firstOutput + int(k);

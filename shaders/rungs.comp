@@ -12,8 +12,7 @@ layout(set = 0, binding = 0) uniform utextureBuffer listStart;
 layout(set = 0, binding = 1) uniform utextureBuffer listBricks;
 layout(set = 0, binding = 2) uniform textureBuffer lensBoxes;
 layout(set = 0, binding = 3, r32ui) uniform writeonly uimageBuffer rungs;
-layout(set = 0, binding = 4, r32ui) uniform writeonly uimageBuffer leftPixels;
-layout(set = 0, binding = 5, rgba32f) uniform writeonly imageBuffer clusters; // from the list's start on
+layout(set = 0, binding = 4, rgba32f) uniform writeonly imageBuffer clusters; // from the list's start on
 layout(push_constant) uniform Push { LayerPush push; };
 
 struct Clusters {
@@ -62,7 +61,7 @@ void main() {
     }
     if (end > begin) close(found, lensRadius, begin);
     const bool tooCoarse = finest * push.map.radiusPx < kMapTentPx;
-    const bool served = found.count > 0u && found.fits && last == end && !(found.sharp && tooCoarse);
+    const bool served = found.count > 0u && found.fits && last == end &&
+                        !(found.sharp && (tooCoarse || found.count > kSharpClusters));
     imageStore(rungs, int(list), uvec4(served ? found.count | (found.sharp ? kSharpRung : 0u) : 0u));
-    for (int word = 0; word < 2; ++word) imageStore(leftPixels, 2 * int(list) + word, uvec4(served ? 0u : ~0u));
 }

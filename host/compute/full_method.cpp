@@ -7,7 +7,6 @@
 #include "reconstruct/stage_timer.h"
 
 #include <algorithm>
-#include <bit>
 #include <numeric>
 #include <optional>
 
@@ -72,41 +71,32 @@ private:
     /// What is left of a chunk to be searched for in the bins.
     struct Left {
         std::vector<uvec4> lists;  ///< tile x, y, group, list
-        Buffer pixels;             ///< bits of their tiles' pixels
         std::uint64_t outputs = 0; ///< in all
     };
     /// Takes what the layer map serves of a chunk, if there is one.
     Left takeFromMap(const Band& band, const DeviceLists& lists, const OutputPush& push,
                      const Buffer& dense) {
-        std::vector<uint> rungs(lists.start.texels() - 1), pixels(2 * rungs.size(), ~0u);
-        Left left{{}, Buffer(run_.device, TexelFormat::r32ui, pixels.size())};
+        std::vector<uint> rungs(lists.start.texels() - 1, 0);
         if (layerPasses_) {
             const Buffer buffer(run_.device, TexelFormat::r32ui, rungs.size());
             if (run_.observer) run_.commands.fill(dense, 0); // planes that nobody reads
             layerPasses_->record(run_.commands, listPasses_, lists, outputPasses_.pattern(), push, buffer,
-                                 left.pixels, dense);
+                                 dense);
             run_.commands.run();
             buffer.download(rungs);
-            left.pixels.download(pixels);
             run_.observe("rungs", buffer);
-            run_.observe("left_pixels", left.pixels);
-            addMapShare(run_.report.mapShare, run_.field.frame, band, rungs, pixels, pattern_.groups.size());
-        } else {
-            left.pixels.upload(pixels);
+            addMapShare(run_.report.mapShare, run_.field.frame, band, rungs, pattern_.groups.size());
         }
+        Left left;
         const ivec2 tiles = push.outputs.tileCount;
         for (uint list = 0; list < rungs.size(); ++list) {
-            if ((pixels[2 * list] | pixels[2 * list + 1]) == 0) continue;
+            if (rungs[list] != 0) continue;
             const uint tile = list % uint(tiles.x * tiles.y);
             const ivec2 place(tile % tiles.x, tile / tiles.x);
             left.lists.emplace_back(place.x, place.y, list / uint(tiles.x * tiles.y), list);
             const ivec2 size = glm::min(push.outputs.regionSize - kTileSize * place, ivec2(kTileSize));
-            left.outputs +=
-                rungs[list] == 0
-                    ? std::uint64_t(size.x * size.y)
-                    : std::uint64_t(std::popcount(pixels[2 * list]) + std::popcount(pixels[2 * list + 1]));
+            left.outputs += std::uint64_t(size.x * size.y) << push.groupBits;
         }
-        left.outputs <<= push.groupBits;
         return left;
     }
 
@@ -124,8 +114,8 @@ private:
             run_.observe("lists.start", lists.start);
             run_.observe("lists.bricks", lists.ids);
             const Left left = takeFromMap(band, lists, push, dense);
-            const OutputPasses::Result result = outputPasses_.run(run_.commands, listPasses_, bins_, lists,
-                                                                  left.lists, left.pixels, push, dense);
+            const OutputPasses::Result result =
+                outputPasses_.run(run_.commands, listPasses_, bins_, lists, left.lists, push, dense);
             if (!result.overflowed.empty()) finishOnCpu(band, push, result.overflowed, dense);
             report.layered += samples - left.outputs;
             report.visibility += result.visibility;

@@ -20,11 +20,9 @@ public:
                  const std::function<MapTexel(vec2)>& resolve);
 
     /// Records: takes from the map, into `dense`, what it can serve of the lists of a chunk; into `rungs`, of
-    /// each list, its rung (kSharpRung); into `leftPixels`, two words a list, the bits of the tile's pixels
-    /// that it could not serve. All must live until the commands ran.
+    /// each list, its rung (kSharpRung); 0: not served. All must live until the commands ran.
     void record(CommandList& commands, const ListPasses& listPasses, const DeviceLists& lists,
-                const Buffer& pattern, const OutputPush& push, const Buffer& rungs, const Buffer& leftPixels,
-                const Buffer& dense);
+                const Buffer& pattern, const OutputPush& push, const Buffer& rungs, const Buffer& dense);
 
     const Buffer& texels() const { return texels_; }
 

@@ -32,8 +32,8 @@ OutputPasses::Counters OutputPasses::counters() const {
 }
 
 OutputPasses::Result OutputPasses::run(CommandList& commands, ListPasses& listPasses, const DeviceBins& bins,
-                                       const DeviceLists& lists, std::span<const uvec4> left,
-                                       const Buffer& leftPixels, OutputPush push, const Buffer& dense) {
+                                       const DeviceLists& lists, std::span<const uvec4> left, OutputPush push,
+                                       const Buffer& dense) {
     reserve(dense.texels());
     commands.fill(counters_, 0);
     push.radiusPx = bins.grid.radiusPx;
@@ -43,8 +43,7 @@ OutputPasses::Result OutputPasses::run(CommandList& commands, ListPasses& listPa
     commands.dispatch(
         nearest_,
         {bins.positions, bins.radiances, bins.cellStart, lists.start, lists.cellBases, lists.bricks, pattern_,
-         dense, counters_, visibilityList_, overflowList_, leftLists, leftPixels, aperture_,
-         lensMap_},
+         dense, counters_, visibilityList_, overflowList_, leftLists, aperture_, lensMap_},
         push, nearest_.gridFor((std::uint64_t(push.count) * kTileSize * kTileSize) << push.groupBits));
     commands.run();
 

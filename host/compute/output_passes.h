@@ -21,8 +21,7 @@ public:
     /// group, list); `lists` have a margin of 2 R.
     /// Runs on `commands`, which must be empty, and leaves it empty.
     Result run(CommandList& commands, ListPasses& listPasses, const DeviceBins& bins,
-               const DeviceLists& lists, std::span<const uvec4> left, const Buffer& leftPixels,
-               OutputPush push, const Buffer& dense);
+               const DeviceLists& lists, std::span<const uvec4> left, OutputPush push, const Buffer& dense);
 
     /// Entries of the output pattern.
     const Buffer& pattern() const { return pattern_; }

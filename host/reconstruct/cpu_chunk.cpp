@@ -34,7 +34,6 @@ void CpuChunk::run(Monitor& monitor, ReconstructReport& report) {
     lists = makeLists(2 * bins_.grid.radiusPx, lensBounds);
     const std::size_t tiles = std::size_t(layout_.tileCount.x) * layout_.tileCount.y;
     rungs.assign(tiles * groups_.size(), 0);
-    leftPixels.assign(2 * rungs.size(), ~0u);
     parallelFor(0, tiles, 1, [&](std::size_t first, std::size_t last) {
         Counts counts;
         for (std::size_t tile = first; tile < last; ++tile) runTile(tile, counts);
@@ -80,26 +79,31 @@ void CpuChunk::runTile(std::size_t tile, Counts& counts) {
         if (map_)
             rung = rungOf(bins_, contextOf(lists, list).bricks, groups_[group], pattern_.lensScale,
                           map_->layout);
-        rungs[list] = rung.code();
-        if (!rung.clusters.empty()) leftPixels[2 * list] = leftPixels[2 * list + 1] = 0;
-        for (int y = corner.y; y < end.y; ++y)
-            for (int x = corner.x; x < end.x; ++x) {
-                if (takeFromMap(group, ivec2(x, y), rung)) {
-                    counts.layered += std::uint64_t(groupSize);
-                    continue;
-                }
-                const int pixel = (y - corner.y) * kTileSize + x - corner.x;
-                leftPixels[2 * list + std::size_t(pixel >> 5)] |= 1u << (pixel & 31);
-                for (int k = 0; k < groupSize; ++k)
+        const auto outputs = std::uint64_t((end.x - corner.x) * (end.y - corner.y) * groupSize);
+        counts.outputs += outputs;
+        if (!rung.clusters.empty() && takeFromMap(group, corner, rung)) {
+            rungs[list] = rung.code();
+            counts.layered += outputs;
+            continue;
+        }
+        for (int k = 0; k < groupSize; ++k)
+            for (int y = corner.y; y < end.y; ++y)
+                for (int x = corner.x; x < end.x; ++x)
                     runSlot(slotAt(ivec2(x, y), int(group) * groupSize + k), counts);
-            }
-        counts.outputs += std::uint64_t((end.x - corner.x) * (end.y - corner.y) * groupSize);
     }
 }
 
-/// False where an output of the pixel meets nothing: then all have to be searched for.
-bool CpuChunk::takeFromMap(std::size_t group, ivec2 position, const Rung& rung) {
-    if (rung.clusters.empty()) return false;
+/// False where an output meets nothing: then the map lacks something there, and all of the list are searched
+/// for. Whether that is so must not depend on bands, so positions outside the region are looked at too.
+bool CpuChunk::takeFromMap(std::size_t group, ivec2 corner, const Rung& rung) {
+    for (int y = corner.y; y < corner.y + kTileSize; ++y)
+        for (int x = corner.x; x < corner.x + kTileSize; ++x)
+            if (!takePixel(group, ivec2(x, y), rung)) return false;
+    return true;
+}
+
+bool CpuChunk::takePixel(std::size_t group, ivec2 position, const Rung& rung) {
+    const bool inRegion = position.x < layout_.regionSize.x && position.y < layout_.regionSize.y;
     const int size = pattern_.groupSize(), first = int(group) * size;
     vec3 sum(0);
     for (int k = first; k < first + size; ++k) {
@@ -110,9 +114,10 @@ bool CpuChunk::takeFromMap(std::size_t group, ivec2 position, const Rung& rung) 
             lookThrough(*map_, rung.clusters, place, vec2(lensPoints_[std::size_t(firstOutput_ + k)]));
         if (!rgb) return false;
         sum += *rgb;
-        if (rung.sharp) dense.samples[slot.sample] = vec4(*rgb, own.positionCode);
+        if (rung.sharp && inRegion) dense.samples[slot.sample] = vec4(*rgb, own.positionCode);
     }
-    if (!rung.sharp) dense.samples[slotAt(position, first).sample] = vec4(sum / float(size), kWholePixel);
+    if (!rung.sharp && inRegion)
+        dense.samples[slotAt(position, first).sample] = vec4(sum / float(size), kWholePixel);
     return true;
 }
 

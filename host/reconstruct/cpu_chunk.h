@@ -31,7 +31,6 @@ public:
     TileLists lists;
     std::vector<float> lensBounds; ///< that the lists are from, through a lens map
     std::vector<uint> rungs;       ///< of each list, see kSharpRung
-    std::vector<uint> leftPixels;  ///< two words a list: bits of the tile's pixels searched for in the bins
 
 private:
     /// Where an output is stored, and in which list its bricks stand.
@@ -51,7 +50,8 @@ private:
     Output at(const Slot& slot) const;
     void store(const Slot& slot, const Output& output, const Reconstructed& result);
     void runTile(std::size_t tile, Counts& counts);
-    bool takeFromMap(std::size_t group, ivec2 position, const Rung& rung);
+    bool takeFromMap(std::size_t group, ivec2 corner, const Rung& rung);
+    bool takePixel(std::size_t group, ivec2 position, const Rung& rung);
     void runSlot(const Slot& slot, Counts& counts);
     void add(const Counts& counts);
     void widen(ReconstructReport& report);

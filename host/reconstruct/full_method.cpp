@@ -56,9 +56,7 @@ void fullMethod(CpuRun& run) {
             run.observe("lists.bricks", chunk.lists.bricks);
             if (map) {
                 run.observe("rungs", chunk.rungs);
-                run.observe("left_pixels", chunk.leftPixels);
-                addMapShare(run.report.mapShare, frame, band, chunk.rungs, chunk.leftPixels,
-                            pattern.groups.size());
+                addMapShare(run.report.mapShare, frame, band, chunk.rungs, pattern.groups.size());
             }
             run.observe("dense", chunk.dense.samples);
             StageTimer timer(run.report, "pixel_filter", "outputs");

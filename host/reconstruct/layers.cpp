@@ -119,7 +119,8 @@ Rung rungOf(const Bins& bins, std::span<const uint> bricks, const LensBox& lens,
         open = {glm::min(open.x, brick.slopeMin), glm::max(open.y, brick.slopeMax)};
     }
     if (!bricks.empty()) close();
-    if (!fits || (rung.sharp && finest * map.radiusPx < kMapTentPx)) rung.clusters.clear();
+    const bool tooCoarse = finest * map.radiusPx < kMapTentPx;
+    if (!fits || (rung.sharp && (tooCoarse || rung.clusters.size() > kSharpClusters))) rung.clusters.clear();
     return rung;
 }
 
@@ -156,20 +157,17 @@ std::optional<vec3> lookThrough(const LayerMap& map, std::span<const Cluster> cl
 }
 
 void addMapShare(std::vector<float>& share, const Rect& frame, const Band& band, std::span<const uint> rungs,
-                 std::span<const uint> leftPixels, std::size_t groups) {
+                 std::size_t groups) {
     share.resize(frame.area());
     const std::size_t columns = std::size_t(band.region.width() + kTileSize - 1) / kTileSize;
     const std::size_t tiles = columns * (std::size_t(band.region.height() + kTileSize - 1) / kTileSize);
     for (int y = band.y0; y < band.y1; ++y)
         for (int x = frame.x0; x < frame.x1; ++x) {
-            const ivec2 place(x - band.region.x0, y - band.region.y0), inTile = place % kTileSize;
-            const std::size_t tile =
-                std::size_t(place.y / kTileSize) * columns + std::size_t(place.x / kTileSize);
-            const int pixel = inTile.y * kTileSize + inTile.x;
+            const std::size_t row = std::size_t(y - band.region.y0) / kTileSize,
+                              column = std::size_t(x - band.region.x0) / kTileSize;
             float& sum = share[std::size_t(y - frame.y0) * frame.width() + (x - frame.x0)];
-            for (std::size_t list = tile; list < rungs.size(); list += tiles)
-                if ((leftPixels[2 * list + std::size_t(pixel >> 5)] >> (pixel & 31) & 1u) == 0)
-                    sum += ((rungs[list] & kSharpRung) != 0 ? 0.5f : 1.f) / float(groups);
+            for (std::size_t list = row * columns + column; list < rungs.size(); list += tiles)
+                if (rungs[list] != 0) sum += ((rungs[list] & kSharpRung) != 0 ? 0.5f : 1.f) / float(groups);
         }
 }
 

@@ -46,6 +46,6 @@ std::optional<vec3> lookThrough(const LayerMap& map, std::span<const Cluster> cl
 /// Adds to `share`, of the pixels of `frame` that a band finishes, what a chunk of its lists brings: 1 for a
 /// list that the map serves, 1/2 if it is sharp, over `groups` in all.
 void addMapShare(std::vector<float>& share, const Rect& frame, const Band& band, std::span<const uint> rungs,
-                 std::span<const uint> leftPixels, std::size_t groups);
+                 std::size_t groups);
 
 } // namespace slant

@@ -26,6 +26,8 @@ SLANT_SHARED_CONSTANT uint kMaxClusters = 16u;
 /// A cluster with a smaller slope is in focus. Where samples lie closer than texels, the map would soften it,
 /// and does not serve; where it serves, each output is looked up at its own place in the pixel.
 SLANT_SHARED_CONSTANT float kLeastSlope = 0.5f;
+/// Most clusters of such a list: the rims of crowds in focus are more than two layers can hold.
+SLANT_SHARED_CONSTANT uint kSharpClusters = 2u;
 /// Rung of a list: the number of its clusters, 0 if the map does not serve it, with this bit where one of
 /// them is in focus.
 SLANT_SHARED_CONSTANT uint kSharpRung = 256u;

@@ -116,8 +116,7 @@ TEST_F(ReconstructParity, everyShapeOfAperture) {
     Image ring({0, 0, 9, 9}, {"Y"});
     for (std::size_t i = 0; i < ring.pixels.size(); ++i) ring.pixels[i] = i == 40 ? 0.f : float(i % 5);
     std::vector<ApertureShape> shapes{apertureOfImage(ring, {})};
-    for (const char* name : {"disc", "star", "polygon 7 12"})
-        shapes.push_back(*parseAperture(name, {}));
+    for (const char* name : {"disc", "star", "polygon 7 12"}) shapes.push_back(*parseAperture(name, {}));
     for (const ApertureShape& shape : shapes)
         for (const Method method : {Method::window, Method::full, Method::ladder}) {
             ReconstructOptions options = optionsOf(method, 32);
