@@ -11,8 +11,8 @@ SLANT_SHARED_CONSTANT int kTileSize = 8;
 /// whole blocks give the same film; and the most outputs of a pixel that share a lens group, and so a list of
 /// bricks.
 SLANT_SHARED_CONSTANT int kFilmBlock = 8;
-/// The search radius R is this over the square root of the samples a pixel where they are fewest; that of a sample
-/// (its own radius) the same where it lies.
+/// The search radius R is this over the square root of the samples a pixel where they are fewest; that of a
+/// sample (its own radius) the same where it lies.
 SLANT_SHARED_CONSTANT float kSearchRadius = 1.7f;
 /// What the tent weights within R of an output add up to, on average, where a surface is all around: every
 /// plane holds as many samples a square pixel as the pattern does. spp * integral of (1 - d / R) = pi / 3
@@ -72,8 +72,8 @@ struct Brick {
 };
 SLANT_SHARED_CONSTANT float kRadiusSteps = 524288.0f; // 2^19
 
-/// Margins of a list narrow with the own radii of a brick's samples, but no further than to this: the layer map
-/// looks that far (twice kMapTentPx).
+/// Margins of a list narrow with the own radii of a brick's samples, but no further than to this: the layer
+/// map looks that far (twice kMapTentPx).
 SLANT_SHARED_CONSTANT float kLeastMarginPx = 1.0f;
 
 /// Words of a brick while its bounds are gathered, each the least of what its samples have: slope in ordered
@@ -98,7 +98,8 @@ struct OcclusionLayout {
     float raysPerBlock; // of these, if none were stopped, where samples are sparsest
 };
 
-/// Samples a pixel around any place: sums of the samples of all pixels above and to the left, (size.x + 1) a row.
+/// Samples a pixel around any place: sums of the samples of all pixels above and to the left, (size.x + 1) a
+/// row.
 struct DensityLayout {
     ivec2 origin; // pixel
     ivec2 size;   // pixels; 0 where all have as many

@@ -22,10 +22,10 @@ SLANT_SHARED_CONSTANT uint kFilledCount = 3u;
 struct WindowSearch {
     ivec2 boundsOrigin; // pixel; samples stand in the order row, column, sample of a pixel
     ivec2 boundsSize;   // pixels
-    int rangePx; // the window is 2 rangePx + 1 pixels wide
-    float alpha; // of the Gaussian, per square pixel
-    float lensStep; // trajectories that cross within it to either side are different surfaces
-    uint fill;      // not 0: where nothing counts, the nearest sample of the window stands in
+    int rangePx;        // the window is 2 rangePx + 1 pixels wide
+    float alpha;        // of the Gaussian, per square pixel
+    float lensStep;     // trajectories that cross within it to either side are different surfaces
+    uint fill;          // not 0: where nothing counts, the nearest sample of the window stands in
 };
 
 /// window: outputs of one chunk.
