@@ -13,9 +13,8 @@ class LayerPasses {
 public:
     LayerPasses(Device& device, const OutputPattern& pattern);
 
-    /// Makes a map. `resolve` does, on the CPU, the texel at a pinhole position
-    /// that has more samples than a shader may loop over. Runs on `commands`, which must be empty, and leaves
-    /// it empty.
+    /// Makes a map. `resolve` does, on the CPU, the texel at a pinhole position that has more samples than a
+    /// shader may loop over. Runs on `commands`, which must be empty, and leaves it empty.
     void makeMap(CommandList& commands, const DeviceBins& bins, const MapLayout& layout,
                  const std::function<MapTexel(vec2)>& resolve);
 

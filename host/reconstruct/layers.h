@@ -5,7 +5,6 @@
 // its way through them front to back: in each it follows its ray to where the map has a layer of that slope,
 // and composites what it finds. Its lens positions are the same in every pixel, and so free of noise; what is
 // in focus is looked up at the outputs' own places in the pixel, the rest at its middle.
-
 #pragma once
 #include "reconstruct/layer_map.h"
 #include "reconstruct/output_pattern.h"

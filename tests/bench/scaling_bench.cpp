@@ -72,7 +72,7 @@ std::vector<Growth> growths() {
     std::vector<Growth> all{{"samples", {}}, {"outputs", {}}, {"pixels", {}}, {"blur", {}}};
     for (const int samples : {4, 8, 16, 32})
         all[0].settings.push_back({double(samples), {.samples = samples}});
-    for (const int outputs : {16, 32, 64, 128})
+    for (const int outputs : {32, 64, 128, 256})
         all[1].settings.push_back({double(outputs), {.outputs = outputs}});
     for (const int width : {160, 240, 320, 480})
         all[2].settings.push_back({double(width * width), {.width = width}});
