@@ -25,8 +25,7 @@ public:
     }
     /// Over which lens positions are spread.
     Aperture aperture() const {
-        const ThinLens* lens = std::get_if<ThinLens>(&kind_);
-        return lens ? lens->aperture() : Aperture();
+        return visit([](const auto& camera) { return camera.aperture(); });
     }
     /// The lens, if the camera is of that kind.
     const CompoundLens* compoundLens() const { return std::get_if<CompoundLens>(&kind_); }

@@ -19,6 +19,23 @@ constexpr double kLeastForward = 1e-3;
 constexpr float kInwards = 0.98f;
 constexpr int kInwardSteps = 8;
 
+/// Along a film radius and across it.
+class RadialFrame {
+public:
+    explicit RadialFrame(glm::dvec2 offset)
+        : radial_(offset == glm::dvec2(0) ? glm::dvec2(1, 0) : offset / glm::length(offset)) {}
+
+    glm::dvec2 to(glm::dvec2 v) const { return turned(v, {radial_.x, -radial_.y}); }
+    glm::dvec2 from(glm::dvec2 v) const { return turned(v, radial_); }
+
+private:
+    static glm::dvec2 turned(glm::dvec2 v, glm::dvec2 by) {
+        return {v.x * by.x - v.y * by.y, v.x * by.y + v.y * by.x};
+    }
+
+    glm::dvec2 radial_;
+};
+
 } // namespace
 
 CompoundLens::CompoundLens(const RealisticCamera& camera, const MovingTransform& worldFromCamera,
@@ -26,7 +43,7 @@ CompoundLens::CompoundLens(const RealisticCamera& camera, const MovingTransform&
     : lens_(camera.lens, camera.apertureDiameterMm),
       filmZ_(lens_.filmPosition(camera.focusDistance * kMillimetres, camera.focusLocation)),
       mmPerPixel_(double(film.diagonalMm) / std::hypot(film.xResolution, film.yResolution)),
-      pupil_(lens_, filmZ_, kFilmReach * double(film.diagonalMm) / 2),
+      pupil_(lens_, filmZ_, kFilmReach * double(film.diagonalMm) / 2), aperture_(camera.aperture),
       depthOrigin_(std::clamp(lens_.entrancePupil().z, filmZ_, lens_.frontVertex())),
       focusDepth_(camera.focusDistance - (depthOrigin_ - filmZ_) / kMillimetres),
       filmCentre_(film.xResolution / 2.0, film.yResolution / 2.0) {
@@ -48,6 +65,7 @@ CompoundLens::CompoundLens(const RealisticCamera& camera, const MovingTransform&
     pupilRadius_ = glm::length(edge->line.position);
     const double c1 = -pixelsPerTangent_ * pupilRadius_;
     slopeModel_ = {float(c1), float(-c1 / focusDepth_)};
+    if (!aperture_.isDisc()) stopPupil_.emplace(lens_, filmZ_, pupil_);
     lensMap_ = makeLensMap(*this);
 }
 
@@ -57,23 +75,19 @@ LensRay CompoundLens::filmRay(glm::dvec2 film, glm::dvec2 pupil) const {
     return {from, glm::normalize(to - from)};
 }
 
-/// `ray` starts at the film.
-bool CompoundLens::traceWithDerivatives(LensRay& ray, std::array<LensRayDerivative, 4>& derivatives) const {
-    const glm::dvec3 d = ray.direction;
-    const double distance = (pupil_.planeZ() - filmZ_) / d.z;
+std::optional<ScenePath> CompoundLens::path(glm::dvec2 raster, glm::dvec2 pupil, Rims rims) const {
+    LensRay ray = filmRay((filmCentre_ - raster) * mmPerPixel_, pupil * pupil_.radius());
+    std::array<LensRayDerivative, 4> derivatives;
+    const double distance = (pupil_.planeZ() - filmZ_) / ray.direction.z;
     for (int i = 0; i < 4; ++i) { // raster x, y, lens u, v; the film is upside down
         glm::dvec3 step(0);
         step[i % 2] = i < 2 ? mmPerPixel_ : pupil_.radius();
-        const glm::dvec3 turn = (step - d * glm::dot(d, step)) / distance;
+        const glm::dvec3 turn = (step - ray.direction * glm::dot(ray.direction, step)) / distance;
         derivatives[std::size_t(i)] = {i < 2 ? -step : glm::dvec3(0), turn};
     }
-    return lens_.traceFromFilm(ray, derivatives);
-}
-
-std::optional<ScenePath> CompoundLens::path(glm::dvec2 raster, glm::dvec2 pupil) const {
-    LensRay ray = filmRay((filmCentre_ - raster) * mmPerPixel_, pupil * pupil_.radius());
-    std::array<LensRayDerivative, 4> derivatives;
-    if (!traceWithDerivatives(ray, derivatives) || ray.direction.z < kLeastForward) return std::nullopt;
+    const bool through = rims == Rims::block ? lens_.traceFromFilm(ray, derivatives)
+                                             : lens_.traceBesideRims(ray, derivatives).has_value();
+    if (!through || ray.direction.z < kLeastForward) return std::nullopt;
     const glm::dvec2 tangent = glm::dvec2(ray.direction) / ray.direction.z;
     const double t = (depthOrigin_ - ray.origin.z) / ray.direction.z;
     ScenePath path;
@@ -87,29 +101,44 @@ std::optional<ScenePath> CompoundLens::path(glm::dvec2 raster, glm::dvec2 pupil)
     return path;
 }
 
+CameraSample CompoundLens::dark(glm::vec2 lens) const {
+    return {{glm::vec3(centre_), glm::vec3(forward_ * kMillimetres)}, lens, 0};
+}
+
+/// `ray` has left the lens.
+CameraSample CompoundLens::inWorld(const LensRay& ray, glm::vec2 lens, float weight) const {
+    if (ray.direction.z < kLeastForward) return dark(lens);
+    const glm::dvec3 direction = ray.direction / ray.direction.z;
+    const glm::dvec3 origin = ray.origin + (depthOrigin_ - ray.origin.z) * direction;
+    const auto world = [&](glm::dvec3 v) { return right_ * v.x + down_ * v.y; };
+    return {{glm::vec3(centre_ + world(origin)), glm::vec3((forward_ + world(direction)) * kMillimetres)},
+            lens,
+            weight};
+}
+
 CameraSample CompoundLens::sample(glm::vec2 raster, glm::vec2 square) const {
-    const CameraSample dark{{glm::vec3(centre_), glm::vec3(forward_ * kMillimetres)}, glm::vec2(0), 0};
+    if (stopPupil_) return throughStop(raster, square);
     const glm::dvec2 offset = (glm::dvec2(raster) - filmCentre_) * mmPerPixel_;
     const double r = glm::length(offset), irradiance = pupil_.irradiance(r);
-    if (!(irradiance > 0)) return dark;
-    const glm::dvec2 radial = r > 0 ? offset / r : glm::dvec2(1, 0);
-    const auto turned = [](glm::dvec2 v, glm::dvec2 by) {
-        return glm::dvec2(v.x * by.x - v.y * by.y, v.x * by.y + v.y * by.x);
-    };
+    if (!(irradiance > 0)) return dark(glm::vec2(0));
+    const RadialFrame frame(offset);
     glm::vec2 lens = concentricDisc(square.x, square.y);
     for (int step = 0; step < kInwardSteps; ++step, lens *= kInwards) {
-        const glm::dvec2 inFrame = turned(lens, {radial.x, -radial.y});
-        LensRay ray = filmRay(-offset, turned(pupil_.at(r, inFrame), radial));
-        if (!lens_.traceFromFilm(ray)) continue;
-        if (ray.direction.z < kLeastForward) return dark;
-        const glm::dvec3 direction = ray.direction / ray.direction.z;
-        const glm::dvec3 origin = ray.origin + (depthOrigin_ - ray.origin.z) * direction;
-        const auto world = [&](glm::dvec3 v) { return right_ * v.x + down_ * v.y; };
-        return {{glm::vec3(centre_ + world(origin)), glm::vec3((forward_ + world(direction)) * kMillimetres)},
-                lens,
-                float(irradiance)};
+        LensRay ray = filmRay(-offset, frame.from(pupil_.at(r, frame.to(lens))));
+        if (lens_.traceFromFilm(ray)) return inWorld(ray, lens, float(irradiance));
     }
-    return dark;
+    return dark(glm::vec2(0));
+}
+
+/// What is open is for the map to say, so that reconstruction finds the same.
+CameraSample CompoundLens::throughStop(glm::vec2 raster, glm::vec2 square) const {
+    const glm::vec2 lens = aperture_.at(2.f * square - 1.f);
+    const float weight = lensMap_.at(raster, lens).weight;
+    if (!(weight > 0)) return dark(lens);
+    const glm::dvec2 offset = (glm::dvec2(raster) - filmCentre_) * mmPerPixel_;
+    const RadialFrame frame(offset);
+    LensRay ray = filmRay(-offset, frame.from(stopPupil_->at(glm::length(offset), frame.to(lens))));
+    return lens_.traceBesideRims(ray) ? inWorld(ray, lens, weight) : dark(lens);
 }
 
 } // namespace slant

@@ -5,12 +5,18 @@
 // irradiance that the whole pupil gives it: the expectation of pbrt's estimate cos^4 area / distance^2,
 // without the third of its rays that a lens blocks. What the trajectories of scene points are like is for the
 // lens map to say (lens_map.h).
+//
+// Behind an opening of another shape the disc is that of the stop (stop_pupil.h), positions are spread as the
+// shape lets light pass, and rays weigh what their places give. As in pbrt, shapes are as bright as the disc
+// on the axis: the mean over the shape takes the place of that over the disc.
 #pragma once
+#include "camera/aperture.h"
 #include "camera/camera_sample.h"
 #include "camera/exit_pupil.h"
 #include "camera/lens_map.h"
 #include "camera/lens_system.h"
 #include "camera/slope_model.h"
+#include "camera/stop_pupil.h"
 
 #include <optional>
 
@@ -26,6 +32,9 @@ struct ScenePath {
     Line line;
     std::array<Line, 4> change;
 };
+
+/// Whether those of surfaces, the stop's included, block rays that pass outside.
+enum class Rims { block, ignore };
 
 /// Depths count from the entrance pupil, but at most from the front vertex, in camera space (metres).
 class CompoundLens {
@@ -48,10 +57,13 @@ public:
 
     /// The ray through a raster position and a place on the exit pupil's plane, in units of its radius;
     /// nothing if it is blocked. `change` is along these.
-    std::optional<ScenePath> path(glm::dvec2 raster, glm::dvec2 pupil) const;
+    std::optional<ScenePath> path(glm::dvec2 raster, glm::dvec2 pupil, Rims rims = Rims::block) const;
 
     const LensSystem& lens() const { return lens_; }
+    const Aperture& aperture() const { return aperture_; }
     const ExitPupil& pupil() const { return pupil_; }
+    /// Set unless the aperture is the disc.
+    const std::optional<StopPupil>& stopPupil() const { return stopPupil_; }
     double filmZ() const { return filmZ_; }             ///< in lens space, mm
     double depthOrigin() const { return depthOrigin_; } ///< the same
     double focusDepth() const { return focusDepth_; }   ///< metres
@@ -60,11 +72,15 @@ public:
 
 private:
     LensRay filmRay(glm::dvec2 film, glm::dvec2 pupil) const;
-    bool traceWithDerivatives(LensRay& ray, std::array<LensRayDerivative, 4>& derivatives) const;
+    CameraSample throughStop(glm::vec2 raster, glm::vec2 square) const;
+    CameraSample dark(glm::vec2 lens) const;
+    CameraSample inWorld(const LensRay& ray, glm::vec2 lens, float weight) const;
 
     LensSystem lens_;
     double filmZ_, mmPerPixel_;
     ExitPupil pupil_;
+    Aperture aperture_;
+    std::optional<StopPupil> stopPupil_;
     double depthOrigin_, focusDepth_;
     glm::dvec2 filmCentre_;
     double pixelsPerTangent_ = 0, pupilRadius_ = 0; ///< on the axis, the latter in metres

@@ -240,25 +240,9 @@ double ExitPupil::irradiance(double r) const {
 }
 
 glm::dvec2 ExitPupil::at(double r, glm::dvec2 disc) const {
-    const double place = std::min(r / filmRadius_, 1.0) * (PupilNodes::kRings - 1);
-    const int ring = std::min(int(place), PupilNodes::kRings - 2);
-    const double x = disc.x, y = std::abs(disc.y), norm = std::abs(x) + y;
-    const double t = norm > 0 ? 1 - x / norm : 0;
-    const double turns = t * (PupilNodes::kTurns / 2.0);
-    const int turn = std::min(int(turns), PupilNodes::kTurns - 1);
-    const double distances = std::min(glm::length(disc), 1.0) * PupilNodes::kDistances;
-    const int distance = std::min(int(distances), PupilNodes::kDistances - 1);
-    const double f = place - ring, g = turns - turn, h = distances - distance;
-    const auto along = [&](int k, int j) {
-        const glm::dvec2 a = node(k, j, distance), b = node(k, j, distance + 1);
-        return a + h * (b - a);
-    };
-    const auto inRing = [&](int k) {
-        const glm::dvec2 a = along(k, turn), b = along(k, turn + 1);
-        return a + g * (b - a);
-    };
-    const glm::dvec2 a = inRing(ring), p = a + f * (inRing(ring + 1) - a);
-    return {p.x, disc.y < 0 ? -p.y : p.y};
+    const double rings = std::min(r / filmRadius_, 1.0) * (PupilNodes::kRings - 1);
+    return PupilNodes::placeAt(rings, disc,
+                               [&](int ring, int turn, int distance) { return node(ring, turn, distance); });
 }
 
 } // namespace slant

@@ -9,6 +9,8 @@
 #pragma once
 #include "camera/lens_system.h"
 
+#include <algorithm>
+#include <cmath>
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -20,6 +22,29 @@ struct PupilNodes {
     static constexpr int kRings = 64, kTurns = 64, kDistances = 16; ///< intervals of the last two
     /// Between direction and distance nodes, of one quarter or the other: unit vector of a direction node.
     static glm::dvec2 direction(int turn);
+
+    /// Linear between the places node(ring, turn, distance), y >= 0, of nodes; `rings` counts them from 0.
+    template <typename Node>
+    static glm::dvec2 placeAt(double rings, glm::dvec2 disc, const Node& node) {
+        const int ring = std::min(int(rings), kRings - 2);
+        const double x = disc.x, y = std::abs(disc.y), norm = std::abs(x) + y;
+        const double t = norm > 0 ? 1 - x / norm : 0;
+        const double turns = t * (kTurns / 2.0);
+        const int turn = std::min(int(turns), kTurns - 1);
+        const double distances = std::min(glm::length(disc), 1.0) * kDistances;
+        const int distance = std::min(int(distances), kDistances - 1);
+        const double f = rings - ring, g = turns - turn, h = distances - distance;
+        const auto along = [&](int k, int j) {
+            const glm::dvec2 a = node(k, j, distance), b = node(k, j, distance + 1);
+            return a + h * (b - a);
+        };
+        const auto inRing = [&](int k) {
+            const glm::dvec2 a = along(k, turn), b = along(k, turn + 1);
+            return a + g * (b - a);
+        };
+        const glm::dvec2 a = inRing(ring), p = a + f * (inRing(ring + 1) - a);
+        return {p.x, disc.y < 0 ? -p.y : p.y};
+    }
 };
 
 class ExitPupil {

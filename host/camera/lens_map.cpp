@@ -18,7 +18,8 @@ struct Traced {
 
 /// The ray to a place on the pupil from `px` to the right of the film's centre.
 std::optional<Traced> traced(const CompoundLens& camera, double px, glm::dvec2 pupil) {
-    const auto path = camera.path(camera.filmCentre() + glm::dvec2(px, 0), pupil / camera.pupil().radius());
+    const auto path = camera.path(camera.filmCentre() + glm::dvec2(px, 0), pupil / camera.pupil().radius(),
+                                  camera.stopPupil() ? Rims::ignore : Rims::block);
     if (!path) return std::nullopt;
     return Traced{camera.scenicPlace(path->line), camera.scenicPupil(path->line)};
 }
@@ -57,27 +58,34 @@ LensMap makeLensMap(const CompoundLens& camera) {
         radii.emplace_back(chief[i], along, across,
                            pupil.irradiance(double(i) * stepPx * camera.millimetresPerPixel()));
     }
+    const std::optional<StopPupil>& stop = camera.stopPupil();
     const double ringPx = radiusPx / (PupilNodes::kRings - 1);
-    std::vector<vec4> texels{
-        vec4(camera.filmCentre(), 1 / stepPx, radii.size()),
-        vec4(1 / ringPx, PupilNodes::kRings, PupilNodes::kTurns, PupilNodes::kDistances)};
+    std::vector<vec4> texels{vec4(camera.filmCentre(), 1 / stepPx, radii.size()),
+                             vec4(1 / ringPx, PupilNodes::kRings, PupilNodes::kTurns, PupilNodes::kDistances),
+                             vec4(stop ? 1 : 0, 0, 0, 0)};
     texels.insert(texels.end(), radii.begin(), radii.end());
+    std::vector<vec4> lights;
     vec4 last(0);
     for (int ring = 0; ring < PupilNodes::kRings; ++ring) {
-        const double px = ring * ringPx, place = px / stepPx;
-        const bool lit = place <= double(radii.size() - 1);
+        const double px = ring * ringPx, radius = px / stepPx;
+        const bool lit = radius <= double(radii.size() - 1);
         for (int turn = 0; turn <= PupilNodes::kTurns; ++turn)
             for (int distance = 0; distance <= PupilNodes::kDistances; ++distance) {
-                const auto ray =
-                    lit ? traced(camera, px, pupil.node(ring, turn, distance)) : std::optional<Traced>();
+                const glm::dvec2 place =
+                    stop ? stop->node(ring, turn, distance).place : pupil.node(ring, turn, distance);
+                const auto ray = lit ? traced(camera, px, place) : std::optional<Traced>();
                 if (ray) { // else beyond the image; as what is next to it
-                    const double aberration = ray->xy.x - interpolated(radii, place, 0);
-                    last = vec4(aberration / interpolated(radii, place, 1),
-                                ray->xy.y / interpolated(radii, place, 2), ray->uv);
+                    const double aberration = ray->xy.x - interpolated(radii, radius, 0);
+                    last = vec4(aberration / interpolated(radii, radius, 1),
+                                ray->xy.y / interpolated(radii, radius, 2), ray->uv);
                 }
                 texels.push_back(last);
+                if (!stop) continue;
+                const StopPupil::Node& node = stop->node(ring, turn, distance);
+                lights.emplace_back(node.irradiance, ray ? node.clearance : -1, stop->openShare(ring), 0);
             }
     }
+    texels.insert(texels.end(), lights.begin(), lights.end());
     return LensMap(std::move(texels));
 }
 
@@ -92,7 +100,6 @@ ScenicPlace LensMap::at(vec2 raster, vec2 lens) const {
     const vec4& inner = texels_[std::size_t(kLensMapHeader + radius)];
     const vec4 here =
         inner + (radii - float(radius)) * (texels_[std::size_t(kLensMapHeader + radius + 1)] - inner);
-    place.weight = here.w;
     if (!(here.w > 0)) return place;
 
     // In the frame of the radius.
@@ -116,8 +123,18 @@ ScenicPlace LensMap::at(vec2 raster, vec2 lens) const {
         const vec4 a = along(index);
         return a + (turns - float(turn)) * (along(index + row) - a);
     };
-    const vec4 near = inRing(first);
-    const vec4 node = near + (rings - float(ring)) * (inRing(first + plane) - near);
+    const auto inPlace = [&](int index) {
+        const vec4 a = inRing(index);
+        return a + (rings - float(ring)) * (inRing(index + plane) - a);
+    };
+    const vec4 node = inPlace(first);
+    place.weight = here.w;
+    place.openShare = 1;
+    if (texels_[2].x > 0) {
+        const vec4 light = inPlace(first + plane * int(shape.y));
+        place.weight = light.y >= 0 ? light.x : 0.f;
+        place.openShare = light.z;
+    }
 
     const float side = d.y < 0 ? -1.f : 1.f;
     const vec2 x(here.x + here.y * node.x, here.z * (side * node.y)), u(node.z, side * node.w);
@@ -138,6 +155,7 @@ const char* faultOf(const std::vector<vec4>& texels) {
             if (!std::isfinite(texel[i])) return "holds a number that is not finite";
     if (texels.size() < std::size_t(kLensMapHeader)) return "is too short";
     const vec4 &head = texels[0], &shape = texels[1];
+    const bool ofStop = texels[2].x > 0;
     const auto count = [](float value, float least) {
         return value >= least && value <= kMostNodes && value == std::floor(value);
     };
@@ -145,12 +163,15 @@ const char* faultOf(const std::vector<vec4>& texels) {
           count(shape.w, 1)))
         return "has counts or steps that are no table's";
     const double nodes = double(shape.y) * (double(shape.z) + 1) * (double(shape.w) + 1);
-    if (double(texels.size()) != kLensMapHeader + double(head.w) + nodes)
+    if (double(texels.size()) != kLensMapHeader + double(head.w) + (ofStop ? 2 : 1) * nodes)
         return "has another length than its counts say";
     for (std::size_t i = 0; i < std::size_t(head.w); ++i) {
         const vec4& radius = texels[std::size_t(kLensMapHeader) + i];
         if (!(radius.y > 0 && radius.z > 0 && radius.w >= 0)) return "has a scale or irradiance below 0";
     }
+    for (std::size_t i = texels.size() - (ofStop ? std::size_t(nodes) : 0); i < texels.size(); ++i)
+        if (!(texels[i].x >= 0 && texels[i].z >= 0 && texels[i].z <= 1))
+            return "has an irradiance below 0, or a share that is none";
     return nullptr;
 }
 

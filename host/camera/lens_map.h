@@ -10,7 +10,9 @@
 // the pupil as it is seen from there, cat's eye and all, equal areas for equal shares of light. The lens is
 // symmetric about its axis, so that the map has three variables: film radius, and two for the disc. It is a
 // table, the same for all who use it, interpolated linearly: in coarse rings what aberrations do, in fine
-// ones the rest. Single floats and + - * / sqrt only, in the order of lib/lens_map.glsl.
+// ones the rest. Where the disc is that of the stop, the table says also what each place gives the film and
+// how far within all rims its rays stay: beyond them they go on as if there were none, so that what lies
+// between is smooth. Single floats and + - * / sqrt only, in the order of lib/lens_map.glsl.
 #pragma once
 #include "shared/lens_map.h"
 
@@ -25,8 +27,9 @@ struct ScenicPlace {
     vec2 uv; ///< on the entrance pupil's plane, radii
     /// Symmetric matrix (xx, xy, yy) that turns a short way there into one on the film.
     vec3 filmMetric;
-    vec2 extent;  ///< half the size of a box around all that is within a pixel of the film
-    float weight; ///< irradiance of the film under radiance 1; 0: dark, and nothing else is set
+    vec2 extent;     ///< half the size of a box around all that is within a pixel of the film
+    float weight;    ///< irradiance of the film under radiance 1; 0: dark, no ray gets there
+    float openShare; ///< of the disc, from which rays get there; 0: nothing else is set
 };
 
 class LensMap {

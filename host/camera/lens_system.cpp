@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace slant {
 namespace {
+
+constexpr double kMissed = std::numeric_limits<double>::infinity();
 
 /// A paraxial system between two planes: height and (index times angle) of a ray that runs towards the film
 /// (Hecht, Optics, section 6.2). Unit determinant.
@@ -72,30 +75,29 @@ void LensSystem::findPupils(std::size_t stop) {
     exitPupil_ = {rear.b / rear.d, radius / std::abs(rear.d)};
 }
 
-bool LensSystem::pass(const Surface& s, double eta, LensRay& ray, std::span<LensRayDerivative> derivatives) {
+double LensSystem::pass(const Surface& s, double eta, LensRay& ray,
+                        std::span<LensRayDerivative> derivatives) {
     const glm::dvec3 d = ray.direction;
     if (s.radius == 0) {
         const double t = (s.vertex - ray.origin.z) / d.z;
-        if (!(t >= 0)) return false;
+        if (!(t >= 0)) return kMissed;
         const glm::dvec3 p = ray.origin + t * d;
-        return p.x * p.x + p.y * p.y <=
-               s.clearRadius2; // the ray itself and its derivatives go on as they are
+        return p.x * p.x + p.y * p.y; // the ray itself and its derivatives go on as they are
     }
     // Of the two crossings of the sphere, the one on the side of the vertex.
     const glm::dvec3 fromCentre = ray.origin - glm::dvec3(0, 0, s.vertex - s.radius);
     const double along = glm::dot(fromCentre, d);
     const double discriminant = along * along - (glm::dot(fromCentre, fromCentre) - s.radius * s.radius);
-    if (!(discriminant >= 0)) return false;
+    if (!(discriminant >= 0)) return kMissed;
     const double root = std::sqrt(discriminant);
     const double t = (d.z > 0) == (s.radius > 0) ? root - along : -root - along;
-    if (t < 0) return false;
+    if (t < 0) return kMissed;
     const glm::dvec3 p = ray.origin + t * d;
-    if (p.x * p.x + p.y * p.y > s.clearRadius2) return false;
 
     const glm::dvec3 n = (fromCentre + t * d) / s.radius;
     const double c = glm::dot(n, d);
     const double k = 1 - eta * eta * (1 - c * c);
-    if (!(k > 0)) return false;
+    if (!(k > 0)) return kMissed;
     const double refracted = c > 0 ? std::sqrt(k) : -std::sqrt(k), bend = refracted - eta * c;
     // Derivatives of the steps above; the point stays on the sphere.
     for (LensRayDerivative& each : derivatives) {
@@ -107,29 +109,60 @@ bool LensSystem::pass(const Surface& s, double eta, LensRay& ray, std::span<Lens
         each = {dp, eta * each.direction + dbend * n + bend * dn};
     }
     ray = {p, eta * d + bend * n};
-    return true;
+    return p.x * p.x + p.y * p.y;
 }
 
 bool LensSystem::traceFromFilm(LensRay& ray, std::span<LensRayDerivative> derivatives) const {
     for (auto s = surfaces_.rbegin(); s != surfaces_.rend(); ++s)
-        if (!pass(*s, s->indexBehind / s->indexBefore, ray, derivatives)) return false;
+        if (!(pass(*s, s->indexBehind / s->indexBefore, ray, derivatives) <= s->clearRadius2)) return false;
     return true;
+}
+
+std::optional<double> LensSystem::traceBesideRims(LensRay& ray,
+                                                  std::span<LensRayDerivative> derivatives) const {
+    double clearance = 1;
+    for (auto s = surfaces_.rbegin(); s != surfaces_.rend(); ++s) {
+        const double height2 = pass(*s, s->indexBehind / s->indexBefore, ray, derivatives);
+        if (height2 == kMissed) return std::nullopt;
+        if (s->radius != 0) clearance = std::min(clearance, 1 - height2 / s->clearRadius2);
+    }
+    return clearance;
+}
+
+bool LensSystem::traceToStop(LensRay& ray, std::span<LensRayDerivative> derivatives) const {
+    auto s = surfaces_.rbegin();
+    for (; s->radius != 0; ++s)
+        if (pass(*s, s->indexBehind / s->indexBefore, ray, derivatives) == kMissed) return false;
+    const glm::dvec3 d = ray.direction;
+    const double t = (s->vertex - ray.origin.z) / d.z;
+    for (LensRayDerivative& each : derivatives) {
+        const glm::dvec3 drift = each.origin + t * each.direction;
+        each.origin = drift - drift.z / d.z * d;
+    }
+    ray.origin += t * d;
+    return t >= 0;
 }
 
 bool LensSystem::traceFromScene(LensRay& ray) const {
     for (const Surface& s : surfaces_)
-        if (!pass(s, s.indexBefore / s.indexBehind, ray, {})) return false;
+        if (!(pass(s, s.indexBefore / s.indexBehind, ray, {}) <= s.clearRadius2)) return false;
     return true;
 }
 
 std::vector<glm::dvec3> LensSystem::corners(LensRay ray, double front) const {
     std::vector<glm::dvec3> points{ray.origin};
     for (auto s = surfaces_.rbegin(); s != surfaces_.rend(); ++s) {
-        if (!pass(*s, s->indexBehind / s->indexBefore, ray, {})) return {};
+        if (!(pass(*s, s->indexBehind / s->indexBefore, ray, {}) <= s->clearRadius2)) return {};
         if (s->radius != 0) points.push_back(ray.origin);
     }
     points.push_back(ray.origin + (front - ray.origin.z) / ray.direction.z * ray.direction);
     return points;
+}
+
+double LensSystem::stopRadius() const {
+    const auto stop =
+        std::find_if(surfaces_.begin(), surfaces_.end(), [](const Surface& s) { return s.radius == 0; });
+    return std::sqrt(stop->clearRadius2);
 }
 
 double LensSystem::rearRadius() const {

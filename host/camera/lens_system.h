@@ -8,6 +8,7 @@
 
 #include <array>
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,7 +37,12 @@ public:
     /// Follows a ray from the film until it has left the front surface, with its derivatives, if any. False
     /// if it misses a surface, passes outside a clear diameter, or is totally reflected.
     bool traceFromFilm(LensRay& ray, std::span<LensRayDerivative> derivatives = {}) const;
-    /// The same from the scene, until it has left the rear surface.
+    /// The same, but no clear diameter stops the ray: how far within them, the stop's apart, it stays, as the
+    /// least of 1 - (height / clear radius)^2. Nothing if it misses a surface or is totally reflected.
+    std::optional<double> traceBesideRims(LensRay& ray, std::span<LensRayDerivative> derivatives = {}) const;
+    /// From the film to the plane of the stop, whatever the clear diameters; false likewise.
+    bool traceToStop(LensRay& ray, std::span<LensRayDerivative> derivatives) const;
+    /// From the scene as traceFromFilm, until it has left the rear surface.
     bool traceFromScene(LensRay& ray) const;
 
     /// For drawings: where a ray from the film begins, meets each surface and reaches the plane z = `front`;
@@ -53,6 +59,7 @@ public:
     AxialDisc exitPupil() const { return exitPupil_; }
     /// Focused at infinity.
     double fNumber() const { return focalLength_ / (2 * entrancePupil_.radius); }
+    double stopRadius() const;
     /// Clear radius of the rear surface.
     double rearRadius() const;
     /// Surfaces from front to rear, for drawings: vertex, radius of curvature, clear radius.
@@ -76,8 +83,9 @@ private:
         double indexBehind, indexBefore; ///< towards the film, towards the scene
     };
 
-    static bool pass(const Surface& surface, double eta, LensRay& ray,
-                     std::span<LensRayDerivative> derivatives);
+    /// The squared height at which the ray meets the surface; infinity if it does not or is reflected.
+    static double pass(const Surface& surface, double eta, LensRay& ray,
+                       std::span<LensRayDerivative> derivatives);
     void findCardinalPoints(const std::string& path);
     void findPupils(std::size_t stop);
 

@@ -52,9 +52,10 @@ Subject fromScene(const LensOptions& options) {
                     "--aperture, --focus-distance and --diagonal are for lens files; a scene "
                     "has its own");
     TerminalMonitor monitor(TerminalMonitor::styleOfStderr(true));
-    const Scene scene = readScene(options.file, monitor);
+    Scene scene = readScene(options.file, monitor);
     if (!scene.realistic)
         throw badInput({options.file}, "the camera of this scene is not \"realistic\": it has no lens");
+    scene.realistic->aperture = {}; // figures and drawing are those of the round stop
     const Tracer tracer(scene, monitor);
     const CompoundLens& camera = *tracer.camera().compoundLens();
     const auto [nearest, farthest] = tracer.depthRange();

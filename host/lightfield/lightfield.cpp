@@ -107,7 +107,7 @@ LightField onSceneSide(const LightField& field) {
             s.g /= place.weight;
             s.b /= place.weight;
             const vec3& m = place.filmMetric;
-            s.areaExcess = 1 / (m.x * m.z - m.y * m.y) - 1;
+            s.areaExcess = 1 / ((m.x * m.z - m.y * m.y) * place.openShare) - 1;
             const float sum = s.x + s.y + s.u + s.v + s.r + s.g + s.b + s.areaExcess;
             if (!(place.weight > 0 && std::isfinite(sum))) {
                 s = {};

@@ -27,7 +27,8 @@ struct Interval {
     }
 };
 
-/// The places of a tile as a group sees them, on the scene's side; none where the film is dark.
+/// The places of a tile as a group sees them, on the scene's side, blocked or not, as the map is smooth only
+/// so; none where the film is dark.
 std::vector<Output> placesOf(const LensMap& lens, const OutputPattern& pattern, std::size_t group,
                              vec2 corner) {
     const LensBox& cells = pattern.cells[group];
@@ -38,8 +39,9 @@ std::vector<Output> placesOf(const LensMap& lens, const OutputPattern& pattern, 
         for (int k = 0; k < kTileSteps * kTileSteps; ++k) {
             const vec2 step = vec2(float(k % kTileSteps), float(k / kTileSteps)) / float(kTileSteps - 1);
             Output output{corner + step * float(kTileSize), pattern.lensScale * uv, 0, 0};
+            if (!(lens.at(output.xy, output.uv).openShare > 0)) continue;
             seeThrough(lens, output);
-            if (output.weight > 0) places.push_back(output);
+            places.push_back(output);
         }
     }
     return places;

@@ -122,25 +122,33 @@ PerspectiveCamera readShutter(const std::string& kind, ParameterList& parameters
     return camera;
 }
 
+ApertureShape readShape(ParameterList& parameters, const SceneFiles& files) {
+    const std::optional<std::string> aperture = parameters.text("aperture");
+    return aperture ? files.aperture(*aperture, parameters.positionOf("aperture")) : ApertureShape();
+}
+
 void readPerspective(PerspectiveCamera& camera, ParameterList& parameters, const SceneFiles& files) {
     camera.fovDegrees = parameters.number("fov", 90, {0, 179.99, true});
     camera.lensRadius = parameters.number("lensradius", 0, kNonNegative);
     camera.focalDistance = parameters.number("focaldistance", 1e6f, kPositive);
-    if (const std::optional<std::string> aperture = parameters.text("aperture"))
-        camera.aperture = files.aperture(*aperture, parameters.positionOf("aperture"));
+    camera.aperture = readShape(parameters, files);
 }
 
-RealisticCamera readRealistic(ParameterList& parameters, const std::string& path, Monitor& monitor) {
+RealisticCamera readRealistic(ParameterList& parameters, const SceneFiles& files, const std::string& path,
+                              Monitor& monitor) {
     RealisticCamera camera;
     camera.lens = readLens(path, parameters.positionOf("lensfile"));
+    camera.aperture = readShape(parameters, files);
     camera.apertureDiameterMm = parameters.number("aperturediameter", 1, kPositive);
     camera.focusDistance = parameters.number("focusdistance", 10, kPositive);
     camera.focusLocation = parameters.positionOf("focusdistance");
     if (const double widest = camera.lens.surfaces[camera.lens.stop].diameter;
         camera.apertureDiameterMm > widest) {
-        monitor.warn(fmt::format("{}: 'aperturediameter' is {} mm, but the stop of {} opens to {} mm only",
-                                 FileLocation(parameters.positionOf("aperturediameter")).text(),
-                                 camera.apertureDiameterMm, path, widest));
+        if (camera.apertureDiameterMm > double(float(widest)))
+            monitor.warn(
+                fmt::format("{}: 'aperturediameter' is {} mm, but the stop of {} opens to {} mm only",
+                            FileLocation(parameters.positionOf("aperturediameter")).text(),
+                            camera.apertureDiameterMm, path, widest));
         camera.apertureDiameterMm = widest;
     }
     return camera;
@@ -211,7 +219,7 @@ void OptionBlock::resolve(Scene& scene, const SceneFiles& files, Monitor& monito
         const std::optional<std::string> lens = camera.parameters.text("lensfile");
         if (!lens)
             throw badInput(camera.parameters.position(), "Camera \"realistic\" needs \"string lensfile\"");
-        scene.realistic = readRealistic(camera.parameters, files.resolve(*lens), monitor);
+        scene.realistic = readRealistic(camera.parameters, files, files.resolve(*lens), monitor);
         scene.files.push_back(scene.realistic->lens.path);
     } else {
         readPerspective(scene.camera, camera.parameters, files);

@@ -81,6 +81,7 @@ struct RealisticCamera {
     double apertureDiameterMm = 1; ///< of the stop, at most what the lens has
     double focusDistance = 10;     ///< of the plane in focus, from the film, in metres
     FileLocation focusLocation;    ///< for errors
+    ApertureShape aperture;        ///< of the stop
 };
 
 // ---------------------------------------------------------------- textures, materials

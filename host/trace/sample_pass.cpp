@@ -80,7 +80,7 @@ struct Reach {
             return;
         const glm::vec2 raster(s.x, s.y);
         const ScenicPlace here = lens.at(raster, {s.u, s.v});
-        if (!(here.weight > 0) || !std::isfinite(s.slope)) return;
+        if (!(here.openShare > 0) || !std::isfinite(s.slope)) return;
         const glm::vec3& m = here.filmMetric;
         for (const glm::vec2 rim : {glm::vec2(1, 0), glm::vec2(-1, 0), glm::vec2(0, 1), glm::vec2(0, -1)}) {
             const glm::vec2 moved = 1.1f * s.slope * (lens.at(raster, rim).uv - here.uv);

@@ -8,7 +8,7 @@ struct ScenicPlace {
     vec2 xy, uv;
     vec3 filmMetric;
     vec2 extent;
-    float weight;
+    float weight, openShare;
 };
 
 vec4 lensMapAlong(int index, float part) {
@@ -21,16 +21,25 @@ vec4 lensMapInRing(int index, int row, float part, float between) {
     return a + between * (lensMapAlong(index + row, part) - a);
 }
 
+struct LensMapPlace {
+    int row, plane;             // from a node to the next turn, the next ring
+    float part, between, rings; // towards the next distance, turn, ring
+};
+
+vec4 lensMapInPlace(int index, LensMapPlace place) {
+    const vec4 a = lensMapInRing(index, place.row, place.part, place.between);
+    return a + place.rings * (lensMapInRing(index + place.plane, place.row, place.part, place.between) - a);
+}
+
 ScenicPlace scenicPlace(vec2 raster, vec2 lens) {
     const vec4 head = lensMapAt(0), shape = lensMapAt(1);
     const vec2 offset = raster - head.xy;
     const float r = sqrt(offset.x * offset.x + offset.y * offset.y);
     const float radii = r * head.z;
-    ScenicPlace place = ScenicPlace(vec2(0.0), vec2(0.0), vec3(0.0), vec2(0.0), 0.0);
+    ScenicPlace place = ScenicPlace(vec2(0.0), vec2(0.0), vec3(0.0), vec2(0.0), 0.0, 0.0);
     if (!(radii < head.w - 1.0)) return place;
     const int radius = int(radii);
     const vec4 here = lensMapAlong(kLensMapHeader + radius, radii - float(radius));
-    place.weight = here.w;
     if (!(here.w > 0.0)) return place;
 
     const vec2 e = r > 0.0 ? offset / r : vec2(1.0, 0.0);
@@ -45,9 +54,16 @@ ScenicPlace scenicPlace(vec2 raster, vec2 lens) {
 
     const int row = int(shape.w) + 1, plane = row * (int(shape.z) + 1);
     const int first = kLensMapHeader + int(head.w) + ring * plane + turn * row + distance_;
-    const float part = distances - float(distance_), between = turns - float(turn);
-    const vec4 near = lensMapInRing(first, row, part, between);
-    const vec4 node = near + (rings - float(ring)) * (lensMapInRing(first + plane, row, part, between) - near);
+    const LensMapPlace at =
+        LensMapPlace(row, plane, distances - float(distance_), turns - float(turn), rings - float(ring));
+    const vec4 node = lensMapInPlace(first, at);
+    place.weight = here.w;
+    place.openShare = 1.0;
+    if (lensMapAt(2).x > 0.0) {
+        const vec4 light = lensMapInPlace(first + plane * int(shape.y), at);
+        place.weight = light.y >= 0.0 ? light.x : 0.0;
+        place.openShare = light.z;
+    }
 
     const float side = d.y < 0.0 ? -1.0 : 1.0;
     const vec2 x = vec2(here.x + here.y * node.x, here.z * (side * node.y)), u = vec2(node.z, side * node.w);

@@ -15,6 +15,24 @@ protected:
         if (value && std::string_view(value) == "1" && GetParam() != std::string("cpu"))
             GTEST_SKIP() << "SLANT_TESTS_WITHOUT_VULKAN";
     }
+    /// Sampled and reconstructed through each of `files`, a scene is as rendered, which is returned.
+    Image renderedThrough(const std::vector<std::string>& files, const std::string& scene,
+                          const std::vector<std::string>& tracing) const {
+        const std::vector<std::string> picturing = {"--out-spp", "16", "--float", "--device", GetParam()};
+        std::vector<std::string> both = tracing;
+        both.insert(both.end(), picturing.begin(), picturing.end());
+        run({"render", scene, "-o", dir_.file("render.exr"), "--quiet"}, both);
+        const Image expected = picture("render.exr");
+        for (const std::string& field : files) {
+            run({"sample", scene, "-o", dir_.file(field), "--quiet"}, tracing);
+            run({"reconstruct", dir_.file(field), "-o", dir_.file("out.exr"), "--quiet"}, picturing);
+            const Image got = picture("out.exr");
+            EXPECT_EQ(got.dataWindow, expected.dataWindow);
+            EXPECT_EQ(got.displayWindow, expected.displayWindow);
+            EXPECT_TRUE(got.pixels == expected.pixels) << field;
+        }
+        return expected;
+    }
     void run(std::vector<std::string> words, const std::vector<std::string>& more) const {
         words.insert(words.end(), more.begin(), more.end());
         const test::ProgramResult result = test::runSlant(words);
@@ -26,25 +44,39 @@ protected:
 };
 
 TEST_P(ThroughFiles, sampleAndReconstructIsRender) {
-    const std::string scene = SLANT_SOURCE_DIR "/scenes/row.pbrt";
-    const std::vector<std::string> tracing = {"--crop", "201,262,101,148", "--spp", "3", "--seed",
-                                              "5",      "--quiet"};
-    const std::vector<std::string> picturing = {"--out-spp", "16",       "--float",
-                                                "--quiet",   "--device", GetParam()};
-    std::vector<std::string> both = tracing;
-    both.insert(both.end(), picturing.begin(), picturing.end() - 3);
-    both.insert(both.end(), {"--device", GetParam()});
-    run({"render", scene, "-o", dir_.file("render.exr")}, both);
-    const Image expected = picture("render.exr");
-    EXPECT_EQ(expected.width(), 61);
-    for (const std::string field : {"field.exr", "field.bin", "field.txt"}) {
-        run({"sample", scene, "-o", dir_.file(field)}, tracing);
-        run({"reconstruct", dir_.file(field), "-o", dir_.file("out.exr")}, picturing);
-        const Image got = picture("out.exr");
-        EXPECT_EQ(got.dataWindow, expected.dataWindow);
-        EXPECT_EQ(got.displayWindow, expected.displayWindow);
-        EXPECT_TRUE(got.pixels == expected.pixels) << field;
+    const Image picture =
+        renderedThrough({"field.exr", "field.bin", "field.txt"}, SLANT_SOURCE_DIR "/scenes/row.pbrt",
+                        {"--crop", "201,262,101,148", "--spp", "3", "--seed", "5"});
+    EXPECT_EQ(picture.width(), 61);
+}
+
+TEST_P(ThroughFiles, sampleAndReconstructIsRenderThroughALensToo) {
+    renderedThrough({"field.exr", "field.txt"}, SLANT_SOURCE_DIR "/scenes/row-fisheye.pbrt",
+                    {"--crop", "440,479,231,260", "--spp", "3"});
+}
+
+TEST_P(ThroughFiles, shapesAtTheStopOfALensTravelAlong) {
+    const std::string scene = dir_.file("scene.pbrt");
+    std::vector<Image> pictures;
+    for (const std::string aperture : {"star", "gaussian"}) {
+        test::writeText(
+            scene,
+            "Film \"rgb\" \"integer xresolution\" 48 \"integer yresolution\" 27 \"float diagonal\" 36\n"
+            "\"float iso\" 1000 Sampler \"independent\" \"integer pixelsamples\" 3\n"
+            "Camera \"realistic\" \"string lensfile\" \"" SLANT_SOURCE_DIR
+            "/scenes/lenses/dgauss-50mm.dat\" \"float aperturediameter\" 17.1\n"
+            "\"float focusdistance\" 0.6 \"string aperture\" \"" +
+                aperture +
+                "\"\nWorldBegin\n"
+                "LightSource \"infinite\" \"rgb L\" [0.1 0.2 0.4]\nTranslate -0.1 0.05 1.2\n"
+                "AreaLightSource \"diffuse\" Shape \"sphere\" \"float radius\" 0.03\n");
+        pictures.push_back(renderedThrough({"field.bin"}, scene, {}));
+        run({"render", scene, "-o", dir_.file("cpu.exr"), "--quiet", "--out-spp", "16", "--float", "--device",
+             "cpu"},
+            {});
+        EXPECT_TRUE(picture("cpu.exr").pixels == pictures.back().pixels) << aperture;
     }
+    EXPECT_FALSE(pictures[0].pixels == pictures[1].pixels);
 }
 
 TEST_P(ThroughFiles, aperturesTravelAlong) {

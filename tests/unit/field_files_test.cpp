@@ -97,25 +97,29 @@ TEST_F(FieldFiles, exrHoldsAnyNumberOfSamplesInEachPixel) {
     }
 }
 
-/// Of two radii and the fewest nodes.
-std::vector<vec4> smallMap() {
-    std::vector<vec4> texels{{3, 2, 0.25f, 2}, {0.125f, 2, 1, 1}, {0, 1, 1.5f, 0.7f}, {4, 1, 1.5f, 0.1f}};
+/// Of two radii and the fewest nodes; and of lights, if the disc is that of the stop.
+std::vector<vec4> smallMap(bool ofStop) {
+    std::vector<vec4> texels{
+        {3, 2, 0.25f, 2}, {0.125f, 2, 1, 1}, {ofStop, 0, 0, 0}, {0, 1, 1.5f, 0.7f}, {4, 1, 1.5f, 0.1f}};
     for (int i = 0; i < 8; ++i) texels.emplace_back(0.1f * float(i), -1 / 3.f, 1e-20f, 0.5f);
+    for (int i = 0; ofStop && i < 8; ++i) texels.emplace_back(0.2f, 0.5f - 0.1f * float(i), 0.75f, 0);
     return texels;
 }
 
 TEST_F(FieldFiles, everyFormatKeepsALensMap) {
     FieldFile file = richField();
-    file.field.lensMap = LensMap(smallMap());
-    for (const char* name : {"a.exr", "a.bin", "a.txt"}) {
-        write(name, file);
-        expectSame(read(name), file);
+    for (const bool ofStop : {false, true}) {
+        file.field.lensMap = LensMap(smallMap(ofStop));
+        for (const char* name : {"a.exr", "a.bin", "a.txt"}) {
+            write(name, file);
+            expectSame(read(name), file);
+        }
     }
 }
 
 TEST_F(FieldFiles, lensMapsThatAreNoneAreRefused) {
-    const auto refused = [&](const char* message, const auto& damage) {
-        std::vector<vec4> texels = smallMap();
+    const auto refused = [&](const char* message, const auto& damage, bool ofStop = false) {
+        std::vector<vec4> texels = smallMap(ofStop);
         damage(texels);
         FieldFile file = richField();
         file.field.lensMap = LensMap(texels);
@@ -130,8 +134,15 @@ TEST_F(FieldFiles, lensMapsThatAreNoneAreRefused) {
     refused("counts or steps", [](auto& texels) { texels[0].w = 1.5f; });
     refused("counts or steps", [](auto& texels) { texels[0].z = -1; });
     refused("counts or steps", [](auto& texels) { texels[1].w = 1e30f; });
-    refused("below 0", [](auto& texels) { texels[2].y = 0; });
-    refused("below 0", [](auto& texels) { texels[3].w = -1; });
+    refused("below 0", [](auto& texels) { texels[3].y = 0; });
+    refused("below 0", [](auto& texels) { texels[4].w = -1; });
+    refused("another length", [](auto& texels) { texels[2].x = 1; });
+    refused(
+        "another length", [](auto& texels) { texels.resize(texels.size() - 8); }, true);
+    refused(
+        "irradiance below 0", [](auto& texels) { texels.back().x = -1; }, true);
+    refused(
+        "share that is none", [](auto& texels) { texels.back().z = 1.5f; }, true);
     refused("not finite", [](auto& texels) { texels[5].x = std::numeric_limits<float>::infinity(); });
     test::expectError(ErrorCode::badInput, "no fours", [&] { lensMapOf({"a"}, std::array{1.f, 2.f}); });
 }

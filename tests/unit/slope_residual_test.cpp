@@ -15,7 +15,7 @@ CompoundLens cameraOf(const std::string& lens, double stopDiameterMm, double foc
     film.xResolution = 480;
     film.yResolution = 270;
     film.diagonalMm = 24;
-    return CompoundLens({test::lensNamed(lens), stopDiameterMm, focusDistance, {}}, {}, film);
+    return CompoundLens({test::lensNamed(lens), stopDiameterMm, focusDistance, {}, {}}, {}, film);
 }
 
 TEST(SlopeFit, nearTheAxisIsThatOfAThinLens) {
