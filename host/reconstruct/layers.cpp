@@ -125,9 +125,13 @@ Rung rungOf(const Bins& bins, std::span<const uint> bricks, const LensBox& lens,
 }
 
 std::vector<vec4> lensPoints(const OutputPattern& pattern) {
+    // Cells twice as high as wide: with every other column half a cell lower, points are as far from their
+    // neighbours in all directions.
+    const float stagger = pattern.lensCells.x > pattern.lensCells.y ? 0.25f : 0.f;
     std::vector<vec4> points;
     for (const glm::uvec4& entry : pattern.entries) {
-        const vec2 cell = vec2(float(entry.w & 0xffffu), float(entry.w >> 16)) + 0.5f;
+        const vec2 middle = vec2(float(entry.w & 0xffffu), float(entry.w >> 16)) + 0.5f;
+        const vec2 cell = middle + vec2(0, (entry.w & 1u) != 0 ? stagger : -stagger);
         const vec2 uv = pattern.lensScale * pattern.aperture.at(cell * (2.f / vec2(pattern.lensCells)) - 1.f);
         points.emplace_back(uv, 0, 0);
     }

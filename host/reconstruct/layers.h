@@ -32,8 +32,8 @@ struct Rung {
 Rung rungOf(const Bins& bins, std::span<const uint> bricks, const LensBox& lens, float lensScale,
             const MapLayout& map);
 
-/// Where the outputs of a pattern lie on the lens when they are taken from the map: the middles of their
-/// cells.
+/// Where the outputs of a pattern lie on the lens when they are taken from the map: in their cells, as even
+/// as can be.
 std::vector<vec4> lensPoints(const OutputPattern& pattern);
 
 /// See MapLayout::spreadPerPx.
