@@ -49,14 +49,15 @@ bool hides(Sweep sweep, Brick brick) { return false; }
 #include "lib/search.glsl"
 
 void main() {
-    const ivec2 place = ivec2(gl_GlobalInvocationID.xy), size = push.outputs.regionSize * kMapTexels;
+    const int side = 1 << (findMSB(push.outputs.outputsPerPixel) >> 1); // texels along that of a pixel
+    const ivec2 place = ivec2(gl_GlobalInvocationID.xy), size = push.outputs.regionSize * side;
     if (place.x >= size.x || place.y >= size.y) return;
-    const ivec2 tile = place / (kTileSize * kMapTexels);
+    const ivec2 tile = place / (kTileSize * side);
     const int list = tile.y * push.outputs.tileCount.x + tile.x;
     const float widening = push.radiusPx / push.grid.radiusPx;
     const float fullWeight = kFullWeight * widening * widening;
-    const float mostNarrowing = push.radiusPx / kMapTentPx;
-    const vec2 p = vec2(push.outputs.regionOrigin) + (vec2(place) + 0.5) * (1.0 / float(kMapTexels));
+    const float mostNarrowing = push.radiusPx * float(side);
+    const vec2 p = vec2(push.outputs.regionOrigin) + (vec2(place) + 0.5) * (1.0 / float(side));
     const uint begin = texelFetch(listStart, list).x, end = texelFetch(listStart, list + 1).x;
     Sweep sweep;
     sweep.count = 2;

@@ -27,8 +27,8 @@ struct Lookup {
 Lookup lookUp(vec3 cluster) {
     const float gap = 0.5 * push.map.surfaceGap;
     const int level = int(cluster.z), base = push.map.size.x * push.map.size.y;
-    return Lookup(cluster.x - gap, cluster.y + gap, push.map.size >> level, kMapTexels * push.map.origin >> level,
-                  4 * (base - (base >> 2 * level)) / 3, float(kMapTexels) * powerOfTwo(kFloatBias - uint(level)),
+    return Lookup(cluster.x - gap, cluster.y + gap, push.map.size >> level, push.map.texels * push.map.origin >> level,
+                  4 * (base - (base >> 2 * level)) / 3, float(push.map.texels) * powerOfTwo(kFloatBias - uint(level)),
                   push.map.code);
 }
 

@@ -23,7 +23,7 @@ struct Clusters {
 
 /// Level of the map where lens positions are near enough to one another on a surface of this slope or more.
 float levelFor(float slope) {
-    float spacing = float(kMapTexels) * push.map.spreadPerPx * max(slope, 0.0);
+    float spacing = float(push.map.texels) * push.map.spreadPerPx * max(slope, 0.0);
     int level = 0;
     for (; level + 1 < push.map.levels && spacing >= kLevelSpacing; ++level) spacing *= 0.5;
     return float(level);
@@ -60,7 +60,7 @@ void main() {
         found.open = vec2(min(found.open.x, brick.slopeMin), max(found.open.y, brick.slopeMax));
     }
     if (end > begin) close(found, lensRadius, begin);
-    const bool tooCoarse = finest * push.map.radiusPx < kMapTentPx;
+    const bool tooCoarse = finest * push.map.radiusPx * float(push.map.texels) < 1.0;
     const bool served = found.count > 0u && found.fits && last == end &&
                         !(found.sharp && (tooCoarse || found.count > kSharpClusters));
     imageStore(rungs, int(list), uvec4(served ? found.count | (found.sharp ? kSharpRung : 0u) : 0u));

@@ -27,7 +27,8 @@ public:
     void fill() {
         const Rect& frame = run_.field.frame;
         const float reach = mapReach(bins_.grid, run_.options.lensScale);
-        const int maxRows = layerPasses_ ? mapRows(frame, reach, run_.options.memoryBytes / 2)
+        const int texels = mapTexels(run_.field);
+        const int maxRows = layerPasses_ ? mapRows(frame, texels, reach, run_.options.memoryBytes / 2)
                                          : std::numeric_limits<int>::max();
         const Plan plan = planOutputs(frame, run_.film.filter(), pattern_, run_.maxSamples, maxRows);
         const int groupSize = pattern_.groupSize();
@@ -36,7 +37,8 @@ public:
 
         run_.monitor.beginStage("reconstruct", plan.outputs, "outputs");
         for (const Band& band : plan.bands) {
-            if (layerPasses_) makeMap(chooseMap(bins_.grid, band.region, reach, spreadPerPx(pattern_)));
+            if (layerPasses_)
+                makeMap(chooseMap(bins_.grid, band.region, texels, reach, spreadPerPx(pattern_)));
             for (int group = 0; group < int(pattern_.groups.size()); group += plan.groupsPerChunk) {
                 OutputPush push{};
                 push.grid = bins_.grid;
@@ -57,11 +59,11 @@ public:
 private:
     void makeMap(const MapLayout& layout) {
         StageTimer timer(run_.report, "layer_map", "texels");
-        layerPasses_->makeMap(run_.commands, bins_, layout, [this](vec2 p) {
+        layerPasses_->makeMap(run_.commands, bins_, layout, [&](ivec2 texel) {
             const Bins& bins = cpuBins();
             std::vector<uint> bricks(bins.bricks.size());
             std::iota(bricks.begin(), bricks.end(), 0u);
-            return resolveTexel({bins, bricks}, p, mapRadius(bins.grid));
+            return resolveTexel({bins, bricks}, layout, texel);
         });
         timer.items = layerPasses_->texels().texels();
         timer.bytes = run_.device.peakBytes();

@@ -11,7 +11,7 @@ LayerPasses::LayerPasses(Device& device, const OutputPattern& pattern)
 }
 
 void LayerPasses::makeMap(CommandList& commands, const DeviceBins& bins, const MapLayout& layout,
-                          const std::function<MapTexel(vec2)>& resolve) {
+                          const std::function<MapTexel(ivec2)>& resolve) {
     layout_ = layout;
     const std::size_t base = levelBegin(layout_, 1), texels = levelBegin(layout_, layout_.levels);
     texels_ = Buffer(device_, TexelFormat::rgba32ui, texels);
@@ -21,7 +21,7 @@ void LayerPasses::makeMap(CommandList& commands, const DeviceBins& bins, const M
     push.outputs = mapTiles(layout_);
     push.groupCount = 1;
     push.brickTotal = bins.brickTotal;
-    push.radiusPx = mapRadius(bins.grid);
+    push.radiusPx = layout_.tentPx;
     OutputPattern center;
     center.groups = {{vec2(0), vec2(0)}};
     const LensMap noLens;
@@ -39,8 +39,7 @@ void LayerPasses::makeMap(CommandList& commands, const DeviceBins& bins, const M
     std::vector<uint> indices(overflowed);
     overflowList.download(indices);
     for (const uint index : indices) {
-        const MapTexel texel =
-            resolve(texelCenter(layout_, ivec2(int(index) % layout_.size.x, int(index) / layout_.size.x)));
+        const MapTexel texel = resolve(ivec2(int(index) % layout_.size.x, int(index) / layout_.size.x));
         const glm::uvec4 words = packTexel(texel, layout_.code);
         texels_.upload(std::span(&words, 1), index);
     }

@@ -13,10 +13,10 @@ class LayerPasses {
 public:
     LayerPasses(Device& device, const OutputPattern& pattern);
 
-    /// Makes a map. `resolve` does, on the CPU, the texel at a pinhole position that has more samples than a
+    /// Makes a map. `resolve` does, on the CPU, a texel of level 0 that has more samples than a
     /// shader may loop over. Runs on `commands`, which must be empty, and leaves it empty.
     void makeMap(CommandList& commands, const DeviceBins& bins, const MapLayout& layout,
-                 const std::function<MapTexel(vec2)>& resolve);
+                 const std::function<MapTexel(ivec2)>& resolve);
 
     /// Records: takes from the map, into `dense`, what it can serve of the lists of a chunk; into `rungs`, of
     /// each list, its rung (kSharpRung); 0: not served. All must live until the commands ran.

@@ -30,16 +30,18 @@ void fullMethod(CpuRun& run) {
     const OutputPattern pattern = makeOutputPattern(options.outputsPerPixel, largestSlope(bins.grid),
                                                     options.lensScale, apertureOf(run.field, options));
     const bool layered = usesLayers(run.field, options.method);
+    const int texels = mapTexels(run.field);
     const float reach = mapReach(bins.grid, options.lensScale);
     const int maxRows =
-        layered ? mapRows(frame, reach, options.memoryBytes / 2) : std::numeric_limits<int>::max();
+        layered ? mapRows(frame, texels, reach, options.memoryBytes / 2) : std::numeric_limits<int>::max();
     const Plan plan = planOutputs(frame, run.film.filter(), pattern, maxDenseSamples(options), maxRows);
 
     run.monitor.beginStage("reconstruct", plan.outputs, "outputs");
     for (const Band& band : plan.bands) {
         std::optional<LayerMap> map;
         if (layered)
-            map = layerMapOf(run, bins, chooseMap(bins.grid, band.region, reach, spreadPerPx(pattern)));
+            map =
+                layerMapOf(run, bins, chooseMap(bins.grid, band.region, texels, reach, spreadPerPx(pattern)));
         for (std::size_t group = 0; group < pattern.groups.size(); group += plan.groupsPerChunk) {
             const std::size_t count =
                 std::min<std::size_t>(plan.groupsPerChunk, pattern.groups.size() - group);

@@ -30,19 +30,18 @@ ivec2 aligned(vec2 px, bool up) {
 
 } // namespace
 
-float mapRadius(const GridLayout& grid) {
-    return glm::max(kMapTentPx, grid.radiusPx);
+int mapTexels(const LightField& field) {
+    return emptyCircleRadius(float(sampleCounts(field).most)) >= 1 ? 1 : kMostMapTexels;
 }
 
 float mapReach(const GridLayout& grid, float lensScale) {
     return glm::min(lensScale * largestSlope(grid), kMostReachPx);
 }
 
-int mapRows(const Rect& frame, float reachPx, std::uint64_t bytes) {
+int mapRows(const Rect& frame, int texels, float reachPx, std::uint64_t bytes) {
     const double margin = 2 * (double(reachPx) + 3 * kMapAlignPx);
-    const double texels =
-        (frame.width() + margin) * kMapTexels * kMapTexels * 4 / 3; // of a row, with all levels
-    const double rowBytes = texels * sizeof(glm::uvec4);
+    const double rowTexels = (frame.width() + margin) * texels * texels * 4 / 3; // with all levels
+    const double rowBytes = rowTexels * sizeof(glm::uvec4);
     const double rows = double(bytes) / rowBytes - margin;
     if (rows < kTileSize)
         throw Error(
@@ -53,22 +52,25 @@ int mapRows(const Rect& frame, float reachPx, std::uint64_t bytes) {
     return int(std::min(rows, double(frame.height() + kTileSize)));
 }
 
-MapLayout chooseMap(const GridLayout& grid, const Rect& region, float reachPx, float spreadPerPx) {
+MapLayout chooseMap(const GridLayout& grid, const Rect& region, int texels, float reachPx,
+                    float spreadPerPx) {
     const float margin = reachPx + float(2 * kMapAlignPx); // tiles beyond the region, the coarsest texels
     const vec2 extent = vec2(grid.brickCount * grid.cellsPerBrick) / grid.invCell;
     const vec2 low = glm::max(vec2(float(region.x0), float(region.y0)) - margin, grid.origin);
     const vec2 high = glm::min(vec2(float(region.x1), float(region.y1)) + margin, grid.origin + extent);
     MapLayout map{};
     map.origin = aligned(low, false);
-    map.size = kMapTexels * glm::max(aligned(high, true) - map.origin, ivec2(kMapAlignPx));
+    map.texels = texels;
+    map.size = texels * glm::max(aligned(high, true) - map.origin, ivec2(kMapAlignPx));
     map.surfaceGap = grid.surfaceGap;
     map.reachPx = reachPx;
     map.spreadPerPx = spreadPerPx;
     map.code = slopeCode(grid);
     map.radiusPx = grid.radiusPx;
+    map.tentPx = glm::max(1.f / float(texels), grid.radiusPx);
     map.levels = 1;
-    for (float spacing = float(kMapTexels) * spreadPerPx * largestSlope(grid);
-         spacing >= kLevelSpacing && map.levels < kMapLevels; spacing *= 0.5f)
+    for (float spacing = float(texels) * spreadPerPx * largestSlope(grid);
+         spacing >= kLevelSpacing && (1 << map.levels) <= kMapAlignPx * texels; spacing *= 0.5f)
         ++map.levels;
     return map;
 }
@@ -91,26 +93,27 @@ std::size_t levelBegin(const MapLayout& map, int level) {
 OutputLayout mapTiles(const MapLayout& map) {
     OutputLayout layout{};
     layout.regionOrigin = map.origin;
-    layout.regionSize = map.size / kMapTexels;
+    layout.regionSize = map.size / map.texels;
     layout.tileCount = layout.regionSize / kTileSize;
-    layout.outputsPerPixel = 1;
+    layout.outputsPerPixel = map.texels * map.texels;
     return layout;
 }
 
 vec2 texelCenter(const MapLayout& map, ivec2 texel) {
-    return vec2(map.origin) + (vec2(texel) + 0.5f) * (1.f / float(kMapTexels));
+    return vec2(map.origin) + (vec2(texel) + 0.5f) * (1.f / float(map.texels));
 }
 
 namespace {
 
 /// The layers of the samples within `searchRadius`.
-MapTexel resolveWithin(const SearchContext& context, vec2 p, float radius, float searchRadius) {
+MapTexel resolveWithin(const SearchContext& context, const MapLayout& map, ivec2 place, float searchRadius) {
     const GridLayout& grid = context.bins.grid;
+    const float radius = map.tentPx;
     const float widening = radius / grid.radiusPx;
     const float fullWeight = kFullWeight * widening * widening;
     MapTexel texel;
     Surface surface;
-    const float mostNarrowing = radius / kMapTentPx;
+    const float mostNarrowing = radius * float(map.texels);
     const auto visit = [&](Candidate candidate) {
         if (surface.count > 0 && candidate.slope > surface.slopeMax + grid.surfaceGap) {
             close(texel, surface, fullWeight, false);
@@ -123,17 +126,17 @@ MapTexel resolveWithin(const SearchContext& context, vec2 p, float radius, float
         addSample(surface, candidate, radius);
         return true;
     };
-    forEachCandidate(context, Output{p, vec2(0), 0, 0}, searchRadius, mostNarrowing, visit,
-                     [](const Brick&) { return false; });
+    forEachCandidate(context, Output{texelCenter(map, place), vec2(0), 0, 0}, searchRadius, mostNarrowing,
+                     visit, [](const Brick&) { return false; });
     if (surface.count > 0) close(texel, surface, fullWeight, true);
     return texel;
 }
 
 } // namespace
 
-MapTexel resolveTexel(const SearchContext& context, vec2 p, float radius) {
-    const MapTexel texel = resolveWithin(context, p, radius, radius);
-    return texel.count > 1 ? resolveWithin(context, p, radius, 2 * radius) : texel;
+MapTexel resolveTexel(const SearchContext& context, const MapLayout& map, ivec2 texel) {
+    const MapTexel found = resolveWithin(context, map, texel, map.tentPx);
+    return found.count > 1 ? resolveWithin(context, map, texel, 2 * map.tentPx) : found;
 }
 
 namespace {
@@ -207,19 +210,18 @@ LayerMap makeLayerMap(const Bins& bins, const MapLayout& layout) {
     map.layout = layout;
     map.texels.resize(levelBegin(layout, layout.levels));
 
-    const float radius = mapRadius(bins.grid);
     const OutputLayout tiles = mapTiles(layout);
     const LensBox center{vec2(0), vec2(0)};
-    const TileLists lists = makeTileLists(bins, tiles, {&center, 1}, 2 * radius);
+    const TileLists lists = makeTileLists(bins, tiles, {&center, 1}, 2 * layout.tentPx);
     parallelFor(0, std::size_t(layout.size.y), 8, [&](std::size_t first, std::size_t last) {
         for (int y = int(first); y < int(last); ++y)
             for (int x = 0; x < layout.size.x; ++x) {
-                const ivec2 tile = ivec2(x, y) / (kTileSize * kMapTexels);
+                const ivec2 tile = ivec2(x, y) / (kTileSize * layout.texels);
                 const std::size_t list = std::size_t(tile.y) * tiles.tileCount.x + tile.x;
                 const std::span<const uint> bricks(lists.bricks.data() + lists.start[list],
                                                    lists.start[list + 1] - lists.start[list]);
-                map.texels[std::size_t(y) * layout.size.x + x] = packTexel(
-                    resolveTexel({bins, bricks}, texelCenter(layout, ivec2(x, y)), radius), layout.code);
+                map.texels[std::size_t(y) * layout.size.x + x] =
+                    packTexel(resolveTexel({bins, bricks}, layout, ivec2(x, y)), layout.code);
             }
     });
     for (int level = 1; level < layout.levels; ++level) reduceLevel(map, level);

@@ -22,26 +22,25 @@ struct LayerMap {
 /// How far a surface may move over the lens, pixels, so that the map serves it: as far as any does, up to a
 /// bound.
 float mapReach(const GridLayout& grid, float lensScale);
+/// Texels along a pixel's side: at least as close as samples, if kMostMapTexels is enough for that.
+int mapTexels(const LightField& field);
 /// Rows of a band whose map fits into so many bytes. Throws Error(resources) where a row of tiles does not.
-int mapRows(const Rect& frame, float reachPx, std::uint64_t bytes);
+int mapRows(const Rect& frame, int texels, float reachPx, std::uint64_t bytes);
 
 /// The texels that outputs of `region` can come to see, where the grid has samples; no levels coarser than
 /// lens positions `spreadPerPx` apart on a surface blurred by a pixel need.
-MapLayout chooseMap(const GridLayout& grid, const Rect& region, float reachPx, float spreadPerPx);
+MapLayout chooseMap(const GridLayout& grid, const Rect& region, int texels, float reachPx, float spreadPerPx);
 /// Texels of a level, and of all levels before it.
 ivec2 levelSize(const MapLayout& map, int level);
 std::size_t levelBegin(const MapLayout& map, int level);
 /// Pinhole position of a texel of level 0.
 vec2 texelCenter(const MapLayout& map, ivec2 texel);
 
-/// Width of the tent of a texel of level 0, pixels; it is searched for within twice that.
-float mapRadius(const GridLayout& grid);
+/// The surfaces around the middle of a texel of level 0, a tent over map.tentPx; where there are several,
+/// told apart by the samples within twice that, as resolveVisibility does.
+MapTexel resolveTexel(const SearchContext& context, const MapLayout& map, ivec2 texel);
 
-/// The surfaces around pinhole position p, a tent over `radius`; where there are several, told apart by the
-/// samples within twice that, as resolveVisibility does.
-MapTexel resolveTexel(const SearchContext& context, vec2 p, float radius);
-
-/// The map's pixels as outputs through the lens centre, for lists.
+/// The map's texels as outputs through the lens centre, for lists.
 OutputLayout mapTiles(const MapLayout& map);
 
 LayerMap makeLayerMap(const Bins& bins, const MapLayout& layout);

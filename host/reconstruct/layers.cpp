@@ -41,9 +41,9 @@ Lookup lookUp(const LayerMap& map, const Cluster& cluster) {
             cluster.slopeMin - gap,
             cluster.slopeMax + gap,
             levelSize(map.layout, level),
-            kMapTexels * map.layout.origin / (1 << level),
+            map.layout.texels * map.layout.origin / (1 << level),
             levelBegin(map.layout, level),
-            float(kMapTexels) / float(1 << level)};
+            float(map.layout.texels) / float(1 << level)};
 }
 
 /// Follows the ray x - slope * uv from a few slopes of the cluster to where the map has that slope.
@@ -84,7 +84,7 @@ vec4 layerAround(const Lookup& lookup, vec2 place) {
 
 /// Level of the map where lens positions are near enough to one another on a surface of this slope or more.
 float levelFor(float slope, const MapLayout& map) {
-    float spacing = float(kMapTexels) * map.spreadPerPx * glm::max(slope, 0.f);
+    float spacing = float(map.texels) * map.spreadPerPx * glm::max(slope, 0.f);
     int level = 0;
     for (; level + 1 < map.levels && spacing >= kLevelSpacing; ++level) spacing *= 0.5f;
     return float(level);
@@ -119,7 +119,7 @@ Rung rungOf(const Bins& bins, std::span<const uint> bricks, const LensBox& lens,
         open = {glm::min(open.x, brick.slopeMin), glm::max(open.y, brick.slopeMax)};
     }
     if (!bricks.empty()) close();
-    const bool tooCoarse = finest * map.radiusPx < kMapTentPx;
+    const bool tooCoarse = finest * map.radiusPx * float(map.texels) < 1;
     if (!fits || (rung.sharp && (tooCoarse || rung.clusters.size() > kSharpClusters))) rung.clusters.clear();
     return rung;
 }

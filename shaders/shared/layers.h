@@ -7,13 +7,10 @@ SLANT_SHARED_BEGIN
 
 /// Layers that a texel of the map keeps, front to back.
 SLANT_SHARED_CONSTANT int kMapLayers = 2;
-SLANT_SHARED_CONSTANT int kMapLevels = 6;
-/// Texels of level 0 along a pixel's side.
-SLANT_SHARED_CONSTANT int kMapTexels = 2;
-/// A texel of level 0 is a tent over this many pixels to each side, or over R where that is more.
-SLANT_SHARED_CONSTANT float kMapTentPx = 0.5f;
-/// Maps begin and end at multiples of this many pixels, so that each has the same texels as any other at all
-/// levels.
+/// Most texels of level 0 along a pixel's side.
+SLANT_SHARED_CONSTANT int kMostMapTexels = 2;
+/// Maps begin and end at multiples of this many pixels, and no texel is wider, so that each map has the same
+/// texels as any other at all levels.
 SLANT_SHARED_CONSTANT int kMapAlignPx = 16;
 /// Slope of a layer that a texel does not have.
 SLANT_SHARED_CONSTANT float kNoLayer = 1e30f;
@@ -44,17 +41,19 @@ struct SlopeCode {
     float least, step, perStep;
 };
 
-/// The texels of the map: level 0 has kMapTexels a pixel along each side; each further level half as many,
-/// and is stored after the one before.
+/// The texels of the map: level 0 has `texels` a pixel along each side; each further level half as many, and
+/// is stored after the one before.
 struct MapLayout {
     ivec2 origin; // pixel at the corner of the first texel
     ivec2 size;   // texels of level 0
+    int texels;   // 1 or kMostMapTexels: no more than samples need
     int levels;
     float surfaceGap;  // as GridLayout
     float reachPx;     // a surface that moves further over the lens may lie outside the map
     float spreadPerPx; // distance of lens positions on a surface that is blurred over a pixel to each side
     SlopeCode code;
     float radiusPx; // as GridLayout
+    float tentPx;   // width of a texel of level 0, which is searched for within twice that
 };
 
 /// A range of slopes, pixels per lens radius, and the level of the map where it is looked up.

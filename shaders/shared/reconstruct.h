@@ -73,7 +73,7 @@ struct Brick {
 SLANT_SHARED_CONSTANT float kRadiusSteps = 524288.0f; // 2^19
 
 /// Margins of a list narrow with the own radii of a brick's samples, but no further than to this: the layer
-/// map looks that far (twice kMapTentPx).
+/// map looks that far (twice the width of its smallest texels).
 SLANT_SHARED_CONSTANT float kLeastMarginPx = 1.0f;
 
 /// Words of a brick while its bounds are gathered, each the least of what its samples have: slope in ordered

@@ -3,6 +3,7 @@
 #include "reconstruct/plan.h"
 #include "support/synthetic.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <numeric>
 
@@ -25,13 +26,14 @@ struct Fixture {
     explicit Fixture(const std::vector<synthetic::Layer>& layers, int spp = 16) {
         const LightField field = synthetic::sample(layers, kFrame, 15, spp, 3);
         bins = binSamples(field, kFrame);
-        map = makeLayerMap(bins, chooseMap(bins.grid, kFrame, mapReach(bins.grid, 1), 0.5f));
+        map =
+            makeLayerMap(bins, chooseMap(bins.grid, kFrame, mapTexels(field), mapReach(bins.grid, 1), 0.5f));
         allBricks.resize(bins.bricks.size());
         std::iota(allBricks.begin(), allBricks.end(), 0u);
     }
 
     std::size_t texelAt(vec2 p, int level) const {
-        const ivec2 texel = ivec2((p - vec2(map.layout.origin)) * float(kMapTexels)) >> level;
+        const ivec2 texel = ivec2((p - vec2(map.layout.origin)) * float(map.layout.texels)) >> level;
         return levelBegin(map.layout, level) + std::size_t(texel.y) * levelSize(map.layout, level).x +
                texel.x;
     }
@@ -47,22 +49,26 @@ struct Fixture {
 };
 
 TEST(LayerMap, texelsHoldWhatIsSeenAndWhatIsHidden) {
-    const Fixture f(halfPlane());
-    ASSERT_GE(f.map.layout.levels, 2);
-    for (int level = 0; level < f.map.layout.levels; ++level) {
-        // Seen past the edge from the other side of the lens: hidden at the centre, 4 + 9 px deep.
-        const MapTexel edge = f.texel(vec2(24, 24), level);
-        ASSERT_EQ(edge.count, 2) << level;
-        EXPECT_NEAR(edge.layers[0].slope, -4, 1e-3) << level;
-        EXPECT_NEAR(edge.layers[0].rgb.y, 0.5f, 1e-3) << level;
-        EXPECT_EQ(edge.layers[0].coverage, 1) << level;
-        EXPECT_NEAR(edge.layers[1].slope, 9, 1e-3) << level;
-        EXPECT_NEAR(edge.layers[1].rgb.x, 24, 2 << level);
+    for (const int spp : {2, 16}) {
+        const Fixture f(halfPlane(), spp);
+        EXPECT_EQ(f.map.layout.texels, spp == 2 ? 1 : 2) << "no closer than samples need";
+        ASSERT_GE(f.map.layout.levels, 2);
+        for (int level = 0; level < f.map.layout.levels; ++level) {
+            SCOPED_TRACE(fmt::format("{} samples a pixel, level {}", spp, level));
+            // Seen past the edge from the other side of the lens: hidden at the centre, 4 + 9 px deep.
+            const MapTexel edge = f.texel(vec2(24, 24), level);
+            ASSERT_EQ(edge.count, 2);
+            EXPECT_NEAR(edge.layers[0].slope, -4, 1e-3);
+            EXPECT_NEAR(edge.layers[0].rgb.y, 0.5f, 1e-3);
+            EXPECT_EQ(edge.layers[0].coverage, 1);
+            EXPECT_NEAR(edge.layers[1].slope, 9, 1e-3);
+            EXPECT_NEAR(edge.layers[1].rgb.x, 24, 2 << level);
 
-        const MapTexel open = f.texel(vec2(52, 24), level);
-        ASSERT_EQ(open.count, 1) << level;
-        EXPECT_NEAR(open.layers[0].slope, 9, 1e-3) << level;
-        EXPECT_EQ(open.layers[0].coverage, 1) << level;
+            const MapTexel open = f.texel(vec2(52, 24), level);
+            ASSERT_EQ(open.count, 1);
+            EXPECT_NEAR(open.layers[0].slope, 9, 1e-3);
+            EXPECT_EQ(open.layers[0].coverage, 1);
+        }
     }
 }
 
