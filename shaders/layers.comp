@@ -113,27 +113,33 @@ void main() {
     const int list = (int(tile.z) * push.outputs.tileCount.y + int(tile.y)) * push.outputs.tileCount.x + int(tile.x);
     const uint rung = imageLoad(rungs, list).x, clusterCount = rung & (kSharpRung - 1u);
     if (clusterCount == 0u) return;
-    const bool sharp = (rung & kSharpRung) != 0u;
-    const int groupSize = 1 << push.groupBits;
+    const bool sharp = (rung & kSharpRung) != 0u, thin = (rung & kThinRung) != 0u;
+    const int groupSize = 1 << push.groupBits, taken = thin ? 1 << push.thinBits : groupSize;
     const int clusterBegin = int(texelFetch(listStart, list).x);
     const int firstOutput = (int(push.firstGroup) + int(tile.z)) * groupSize, firstPlane = int(tile.z) * groupSize;
     const ivec2 pixel = push.outputs.regionOrigin + position;
     // Positions outside the region are looked at too: whether a list is served must not depend on bands.
     const bool inRegion = position.x < size.x && position.y < size.y;
     vec3 sum = vec3(0.0);
-    for (int i = 0; i < groupSize; ++i) {
-        Output o = outputOnFilm(vec2(pixel) + 0.5, vec2(0.0), 0.0, kWholePixel);
-        if (sharp) {
-            o = placed(pixel, texelFetch(pattern, firstOutput + i), seedOf(pixel, push.outputs.seed));
-            sum = vec3(0.0);
-        }
-        if (!look(o.xy, texelFetch(lensPoints, firstOutput + i).xy, clusterBegin, clusterCount, sum)) {
-            imageStore(rungs, list, uvec4(0u));
-            return;
+    for (int rank = 0; rank < groupSize; ++rank) {
+        if (rank >= taken && !sharp) break;
+        const int i = thin ? int(inOrder(texelFetch(pattern, firstOutput + rank))) : rank;
+        vec4 value = vec4(vec3(0.0), kLeftOut);
+        if (rank < taken) {
+            Output o = outputOnFilm(vec2(pixel) + 0.5, vec2(0.0), 0.0, kWholePixel);
+            if (sharp) {
+                o = placed(pixel, texelFetch(pattern, firstOutput + i), seedOf(pixel, push.outputs.seed));
+                sum = vec3(0.0);
+            }
+            if (!look(o.xy, texelFetch(lensPoints, firstOutput + i).xy, clusterBegin, clusterCount, sum)) {
+                imageStore(rungs, list, uvec4(rung & kThinRung));
+                return;
+            }
+            value = vec4(sum, o.positionCode);
         }
         if (sharp && inRegion)
-            imageStore(dense, ((firstPlane + i) * size.y + position.y) * size.x + position.x, vec4(sum, o.positionCode));
+            imageStore(dense, ((firstPlane + i) * size.y + position.y) * size.x + position.x, value);
     }
     if (!sharp && inRegion)
-        imageStore(dense, (firstPlane * size.y + position.y) * size.x + position.x, vec4(sum / float(groupSize), kWholePixel));
+        imageStore(dense, (firstPlane * size.y + position.y) * size.x + position.x, vec4(sum / float(taken), kWholePixel));
 }

@@ -54,9 +54,14 @@ void main() {
                         part += filteredGroup(first, ivec2(dx, dy));
                         continue;
                     }
-                    part += filtered(first, ivec2(dx, dy));
-                    for (int k = 1; k < push.groupSize; ++k)
-                        part += filtered(texelFetch(dense, row + dx + k * size.x * size.y), ivec2(dx, dy));
+                    vec4 taken = filtered(first, ivec2(dx, dy));
+                    int leftOut = first.w == kLeftOut ? 1 : 0;
+                    for (int k = 1; k < push.groupSize; ++k) {
+                        const vec4 samp = texelFetch(dense, row + dx + k * size.x * size.y);
+                        taken += filtered(samp, ivec2(dx, dy));
+                        if (samp.w == kLeftOut) ++leftOut;
+                    }
+                    part += float(push.groupSize) / float(push.groupSize - leftOut) * taken;
                 }
             }
         sum += part;

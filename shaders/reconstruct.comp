@@ -22,6 +22,11 @@ vec4 lensMapAt(int texel) { return texelFetch(lensMap, texel); }
 #include "lib/output_pattern.glsl"
 #include "lib/see_through.glsl"
 
+/// Output of a lens group, of those that stand at `rank` in its order.
+uint memberAt(uint firstOfGroup, uint rank) {
+    return inOrder(texelFetch(pattern, push.firstOutput + int(firstOfGroup + rank)));
+}
+
 struct Sweep {
     bool running;
     float invRadius, surfaceGap;
@@ -53,19 +58,21 @@ void main() {
     // Workgroups that share a list follow one another; nothing is divided, which lavapipe does lane by lane.
     const OutputLayout outputs = push.outputs;
     const GridLayout grid = push.grid;
-    const int groupBits = push.groupBits; // 2^groupBits outputs of a pixel share a list
+    const int groupBits = push.groupBits, takenBits = push.takenBits;
     const uint workgroup = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-    if (workgroup >> groupBits >= push.count) return;
-    const uvec4 item = texelFetch(left, int(workgroup >> groupBits));
+    if (workgroup >> takenBits >= push.count) return;
+    const uvec4 item = texelFetch(left, int(workgroup >> takenBits));
     const uvec2 tile = item.xy;
     const uint group = item.z, list = item.w;
-    // Of the 64 << groupBits outputs of this list: eight neighbouring lanes take two lens positions of a square of two
+    // Of the 64 << takenBits outputs of this list: eight neighbouring lanes take two lens positions of a square of two
     // by two pixels; of the ways to split a tile and a lens group this keeps their candidates most alike.
-    const uint place = bitfieldExtract(workgroup, 0, groupBits) << 6 | gl_LocalInvocationIndex;
-    const int pairBits = min(groupBits, 1), restBits = groupBits - pairBits;
+    const uint place = bitfieldExtract(workgroup, 0, takenBits) << 6 | gl_LocalInvocationIndex;
+    const int pairBits = min(takenBits, 1), restBits = takenBits - pairBits;
     const uint pair = bitfieldExtract(place, 0, pairBits), quad = bitfieldExtract(place, pairBits, 2);
-    const uint rest = bitfieldExtract(place, pairBits + 2, restBits), block = place >> (groupBits + 2);
-    const uint k = (group << groupBits) + (rest << pairBits) + pair;
+    const uint rest = bitfieldExtract(place, pairBits + 2, restBits), block = place >> (takenBits + 2);
+    const uint firstOfGroup = group << groupBits;
+    const uint rank = (rest << pairBits) + pair;
+    const uint k = firstOfGroup + (takenBits < groupBits ? memberAt(firstOfGroup, rank) : rank);
     const ivec2 position = kTileSize * ivec2(tile) + 2 * ivec2(block & 3u, block >> 2) +
                            ivec2(quad & 1u, quad >> 1);
     if (position.x >= outputs.regionSize.x || position.y >= outputs.regionSize.y) return;
@@ -73,7 +80,10 @@ void main() {
     const int index = push.firstOutput + int(k);
     Output o = outputAt(outputs.regionOrigin + position, index, texelFetch(pattern, index), push.lensCells,
                         push.lensScale, outputs.seed);
-    const uint slot = (k * uint(outputs.regionSize.y) + uint(position.y)) * uint(outputs.regionSize.x) + uint(position.x);
+    const uint plane = uint(outputs.regionSize.x * outputs.regionSize.y);
+    const uint inPlane = uint(position.y * outputs.regionSize.x + position.x), slot = k * plane + inPlane;
+    for (uint other = rank + (1u << takenBits); other < 1u << groupBits; other += 1u << takenBits)
+        imageStore(dense, int((firstOfGroup + memberAt(firstOfGroup, other)) * plane + inPlane), vec4(vec3(0.0), kLeftOut));
     if (kThroughLens) {
         seeThrough(o);
         if (!(o.weight > 0.0)) { // the film is dark

@@ -17,7 +17,7 @@ layout(push_constant) uniform Push { LayerPush push; };
 
 struct Clusters {
     uint count;
-    bool fits, sharp;
+    bool fits, sharp, thin;
     vec2 open; // least and greatest slope
 };
 
@@ -29,10 +29,11 @@ float levelFor(float slope) {
     return float(level);
 }
 
-void close(inout Clusters found, float lensRadius, uint listBegin) {
+void close(inout Clusters found, float lensRadius, float lensWidth, uint listBegin) {
     const float least = max(found.open.x, -found.open.y);
-    const float reach = max(-found.open.x, found.open.y) * lensRadius;
+    const float most = max(-found.open.x, found.open.y), reach = most * lensRadius;
     found.sharp = found.sharp || least < kLeastSlope;
+    found.thin = found.thin && most * lensWidth <= kThinPx;
     found.fits = found.fits && reach <= push.map.reachPx &&
                  (found.open.y - found.open.x) * lensRadius <= kWidestClusterPx && found.count < kMaxClusters;
     imageStore(clusters, int(listBegin + found.count), vec4(found.open, levelFor(least), 0.0));
@@ -46,22 +47,25 @@ void main() {
     const vec4 box = texelFetch(lensBoxes, int(push.firstGroup + list / tiles));
     const vec2 farthest = max(abs(box.xy), abs(box.zw));
     const float lensRadius = min(sqrt(farthest.x * farthest.x + farthest.y * farthest.y), push.lensScale);
+    const float lensWidth = max(box.z - box.x, box.w - box.y);
     const uint begin = texelFetch(listStart, int(list)).x, end = texelFetch(listStart, int(list) + 1).x;
-    Clusters found = Clusters(0u, true, false, vec2(kInfinity, -kInfinity));
+    Clusters found = Clusters(0u, true, false, true, vec2(kInfinity, -kInfinity));
     float finest = 1.0; // own radius, over R
     const uint last = min(end, begin + uint(kMaxLoopIterations));
     for (uint entry = begin; entry < last; ++entry) {
         const Brick brick = brickOf(texelFetch(listBricks, int(entry)));
         finest = min(finest, widestRadius(brick));
         if (entry > begin && brick.slopeMin > found.open.y + push.map.surfaceGap) {
-            close(found, lensRadius, begin);
+            close(found, lensRadius, lensWidth, begin);
             found.open = vec2(brick.slopeMin, brick.slopeMax);
         }
         found.open = vec2(min(found.open.x, brick.slopeMin), max(found.open.y, brick.slopeMax));
     }
-    if (end > begin) close(found, lensRadius, begin);
+    if (end > begin) close(found, lensRadius, lensWidth, begin);
     const bool tooCoarse = finest * push.map.radiusPx * float(push.map.texels) < 1.0;
-    const bool served = found.count > 0u && found.fits && last == end &&
-                        !(found.sharp && (tooCoarse || found.count > kSharpClusters));
-    imageStore(rungs, int(list), uvec4(served ? found.count | (found.sharp ? kSharpRung : 0u) : 0u));
+    found.fits = found.fits && last == end && !(found.sharp && (tooCoarse || found.count > kSharpClusters));
+    uint rung = found.fits ? found.count : 0u;
+    if (found.fits && found.sharp) rung |= kSharpRung;
+    if (found.thin && last == end && end > begin) rung |= kThinRung;
+    imageStore(rungs, int(list), uvec4(rung));
 }

@@ -50,6 +50,7 @@ public:
                 push.firstOutput = group * groupSize;
                 push.brickTotal = bins_.brickTotal;
                 push.groupBits = pattern_.groupBits;
+                push.takenBits = pattern_.thinBits;
                 chunk(band, push, int(push.groupCount) * groupSize, dense);
             }
         }
@@ -70,13 +71,13 @@ private:
         run_.observe("layer_map", layerPasses_->texels());
     }
 
-    /// What is left of a chunk to be searched for in the bins.
-    struct Left {
-        std::vector<uvec4> lists;  ///< tile x, y, group, list
-        std::uint64_t outputs = 0; ///< in all
+    /// How the lists of a chunk are made, and of how many outputs.
+    struct Work {
+        OutputPasses::Left left; ///< to be searched for in the bins
+        std::uint64_t outputs = 0, layered = 0;
     };
     /// Takes what the layer map serves of a chunk, if there is one.
-    Left takeFromMap(const Band& band, const DeviceLists& lists, const OutputPush& push,
+    Work takeFromMap(const Band& band, const DeviceLists& lists, const OutputPush& push,
                      const Buffer& dense) {
         std::vector<uint> rungs(lists.start.texels() - 1, 0);
         if (layerPasses_) {
@@ -89,17 +90,23 @@ private:
             run_.observe("rungs", buffer);
             addMapShare(run_.report.mapShare, run_.field.frame, band, rungs, pattern_.groups.size());
         }
-        Left left;
+        Work work;
         const ivec2 tiles = push.outputs.tileCount;
         for (uint list = 0; list < rungs.size(); ++list) {
-            if (rungs[list] != 0) continue;
             const uint tile = list % uint(tiles.x * tiles.y);
             const ivec2 place(tile % tiles.x, tile / tiles.x);
-            left.lists.emplace_back(place.x, place.y, list / uint(tiles.x * tiles.y), list);
             const ivec2 size = glm::min(push.outputs.regionSize - kTileSize * place, ivec2(kTileSize));
-            left.outputs += std::uint64_t(size.x * size.y) << push.groupBits;
+            const bool thin = (rungs[list] & kThinRung) != 0, layered = clustersIn(rungs[list]) != 0;
+            const std::uint64_t outputs = std::uint64_t(size.x * size.y)
+                                          << (thin ? pattern_.thinBits : pattern_.groupBits);
+            work.outputs += outputs;
+            if (layered)
+                work.layered += outputs;
+            else
+                (thin ? work.left.thin : work.left.whole)
+                    .emplace_back(place.x, place.y, list / uint(tiles.x * tiles.y), list);
         }
-        return left;
+        return work;
     }
 
     void chunk(const Band& band, const OutputPush& push, int planes, Buffer& dense) {
@@ -115,16 +122,16 @@ private:
             }
             run_.observe("lists.start", lists.start);
             run_.observe("lists.bricks", lists.ids);
-            const Left left = takeFromMap(band, lists, push, dense);
+            const Work work = takeFromMap(band, lists, push, dense);
             const OutputPasses::Result result =
-                outputPasses_.run(run_.commands, listPasses_, bins_, lists, left.lists, push, dense);
+                outputPasses_.run(run_.commands, listPasses_, bins_, lists, work.left, push, dense);
             if (!result.overflowed.empty()) finishOnCpu(band, push, result.overflowed, dense);
-            report.layered += samples - left.outputs;
+            report.layered += work.layered;
             report.visibility += result.visibility;
             report.widened += result.widened;
             report.holes += result.holes;
             report.overflowed += result.overflowed.size();
-            report.outputs += timer.items = samples;
+            report.outputs += timer.items = work.outputs;
             timer.bytes = run_.device.peakBytes();
             run_.observe("dense", dense, samples);
         }

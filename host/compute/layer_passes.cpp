@@ -63,6 +63,7 @@ void LayerPasses::record(CommandList& commands, const ListPasses& listPasses, co
     push.count = uint(lists.start.texels() - 1);
     push.groupBits = outputs.groupBits;
     push.lensScale = outputs.lensScale;
+    push.thinBits = outputs.takenBits;
     if (clusters_.texels() < lists.bricks.texels())
         clusters_ = Buffer(device_, TexelFormat::rgba32f, lists.bricks.texels());
     commands.dispatch(rungs_, {lists.start, lists.bricks, listPasses.lensBoxes(), rungs, clusters_}, push,

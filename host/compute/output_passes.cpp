@@ -32,20 +32,23 @@ OutputPasses::Counters OutputPasses::counters() const {
 }
 
 OutputPasses::Result OutputPasses::run(CommandList& commands, ListPasses& listPasses, const DeviceBins& bins,
-                                       const DeviceLists& lists, std::span<const uvec4> left, OutputPush push,
+                                       const DeviceLists& lists, const Left& left, OutputPush push,
                                        const Buffer& dense) {
     reserve(dense.texels());
     commands.fill(counters_, 0);
     push.radiusPx = bins.grid.radiusPx;
-    push.count = uint(left.size());
-    Buffer leftLists(device_, TexelFormat::rgba32ui, left.size());
-    leftLists.upload(left);
-    commands.dispatch(
-        nearest_,
-        {bins.positions, bins.radiances, bins.cellStart, lists.start, lists.cellBases, lists.bricks, pattern_,
-         dense, counters_, visibilityList_, overflowList_, leftLists, aperture_, lensMap_},
-        push, nearest_.gridFor((std::uint64_t(push.count) * kTileSize * kTileSize) << push.groupBits));
-    commands.run();
+    for (const auto& [items, bits] : {std::pair(&left.whole, push.groupBits), {&left.thin, push.takenBits}}) {
+        push.count = uint(items->size());
+        push.takenBits = bits;
+        Buffer buffer(device_, TexelFormat::rgba32ui, items->size());
+        buffer.upload(std::span(*items));
+        commands.dispatch(
+            nearest_,
+            {bins.positions, bins.radiances, bins.cellStart, lists.start, lists.cellBases, lists.bricks,
+             pattern_, dense, counters_, visibilityList_, overflowList_, buffer, aperture_, lensMap_},
+            push, nearest_.gridFor((std::uint64_t(push.count) * kTileSize * kTileSize) << bits));
+        commands.run();
+    }
 
     Result result;
     const Counters first = counters();

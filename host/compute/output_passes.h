@@ -17,11 +17,15 @@ public:
         std::vector<uint> overflowed; ///< indices into dense that are still to be done, ascending
     };
 
-    /// Fills `dense` (planes of region pixels) for the lists `left` (tile x, y, lens
-    /// group, list); `lists` have a margin of 2 R.
+    /// Lists to search for (tile x, y, lens group, list): all their outputs, or 2^push.takenBits of a group.
+    struct Left {
+        std::vector<uvec4> whole, thin;
+    };
+
+    /// Fills `dense` (planes of region pixels) for the lists `left`; `lists` have a margin of 2 R.
     /// Runs on `commands`, which must be empty, and leaves it empty.
     Result run(CommandList& commands, ListPasses& listPasses, const DeviceBins& bins,
-               const DeviceLists& lists, std::span<const uvec4> left, OutputPush push, const Buffer& dense);
+               const DeviceLists& lists, const Left& left, OutputPush push, const Buffer& dense);
 
     /// Entries of the output pattern.
     const Buffer& pattern() const { return pattern_; }

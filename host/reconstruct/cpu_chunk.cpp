@@ -36,9 +36,10 @@ void CpuChunk::run(Monitor& monitor, ReconstructReport& report) {
     rungs.assign(tiles * groups_.size(), 0);
     parallelFor(0, tiles, 1, [&](std::size_t first, std::size_t last) {
         Counts counts;
-        for (std::size_t tile = first; tile < last; ++tile) runTile(tile, counts);
+        std::uint64_t samples = 0;
+        for (std::size_t tile = first; tile < last; ++tile) samples += runTile(tile, counts);
         add(counts);
-        monitor.advance(counts.outputs);
+        monitor.advance(samples);
     });
     report.outputs += counts_.outputs;
     report.layered += counts_.layered;
@@ -62,13 +63,22 @@ Output CpuChunk::at(const Slot& slot) const {
     return output;
 }
 
+int CpuChunk::takenOf(const Rung& rung) const {
+    return 1 << (rung.thin ? pattern_.thinBits : pattern_.groupBits);
+}
+
+int CpuChunk::memberAt(std::size_t group, int rank, const Rung& rung) const {
+    const int first = int(group) << pattern_.groupBits;
+    return first + (rung.thin ? inOrder(pattern_.entries[std::size_t(firstOutput_ + first + rank)]) : rank);
+}
+
 void CpuChunk::store(const Slot& slot, const Output& output, const Reconstructed& result) {
     dense.samples[slot.sample] = result.outcome == Outcome::resolved
                                      ? vec4(output.weight * result.rgb, output.positionCode)
                                      : vec4(0, 0, 0, -1);
 }
 
-void CpuChunk::runTile(std::size_t tile, Counts& counts) {
+std::uint64_t CpuChunk::runTile(std::size_t tile, Counts& counts) {
     const ivec2 corner = kTileSize * ivec2(int(tile) % layout_.tileCount.x, int(tile) / layout_.tileCount.x);
     const ivec2 end = glm::min(corner + kTileSize, layout_.regionSize);
     const std::size_t tiles = std::size_t(layout_.tileCount.x) * layout_.tileCount.y;
@@ -79,18 +89,25 @@ void CpuChunk::runTile(std::size_t tile, Counts& counts) {
         if (map_)
             rung = rungOf(bins_, contextOf(lists, list).bricks, groups_[group], pattern_.lensScale,
                           map_->layout);
-        const auto outputs = std::uint64_t((end.x - corner.x) * (end.y - corner.y) * groupSize);
+        const auto outputs = std::uint64_t((end.x - corner.x) * (end.y - corner.y) * takenOf(rung));
         counts.outputs += outputs;
-        if (!rung.clusters.empty() && takeFromMap(group, corner, rung)) {
-            rungs[list] = rung.code();
+        if (!rung.clusters.empty() && !takeFromMap(group, corner, rung)) rung.clusters.clear();
+        rungs[list] = rung.code();
+        if (!rung.clusters.empty()) {
             counts.layered += outputs;
             continue;
         }
-        for (int k = 0; k < groupSize; ++k)
+        for (int rank = 0; rank < groupSize; ++rank)
             for (int y = corner.y; y < end.y; ++y)
-                for (int x = corner.x; x < end.x; ++x)
-                    runSlot(slotAt(ivec2(x, y), int(group) * groupSize + k), counts);
+                for (int x = corner.x; x < end.x; ++x) {
+                    const Slot slot = slotAt(ivec2(x, y), memberAt(group, rank, rung));
+                    if (rank < takenOf(rung))
+                        runSlot(slot, counts);
+                    else
+                        dense.samples[slot.sample] = vec4(0, 0, 0, kLeftOut);
+                }
     }
+    return std::uint64_t((end.x - corner.x) * (end.y - corner.y)) * outputCount_;
 }
 
 /// False where an output meets nothing: then the map lacks something there, and all of the list are searched
@@ -104,10 +121,15 @@ bool CpuChunk::takeFromMap(std::size_t group, ivec2 corner, const Rung& rung) {
 
 bool CpuChunk::takePixel(std::size_t group, ivec2 position, const Rung& rung) {
     const bool inRegion = position.x < layout_.regionSize.x && position.y < layout_.regionSize.y;
-    const int size = pattern_.groupSize(), first = int(group) * size;
+    const int taken = takenOf(rung);
     vec3 sum(0);
-    for (int k = first; k < first + size; ++k) {
+    for (int rank = 0; rank < (rung.sharp ? pattern_.groupSize() : taken); ++rank) {
+        const int k = memberAt(group, rank, rung);
         const Slot slot = slotAt(position, k);
+        if (rank >= taken) {
+            if (inRegion) dense.samples[slot.sample] = vec4(0, 0, 0, kLeftOut);
+            continue;
+        }
         const Output own = at(slot);
         const vec2 place = rung.sharp ? own.xy : vec2(slot.pixel) + 0.5f;
         const std::optional<vec3> rgb =
@@ -117,7 +139,8 @@ bool CpuChunk::takePixel(std::size_t group, ivec2 position, const Rung& rung) {
         if (rung.sharp && inRegion) dense.samples[slot.sample] = vec4(*rgb, own.positionCode);
     }
     if (!rung.sharp && inRegion)
-        dense.samples[slotAt(position, first).sample] = vec4(sum / float(size), kWholePixel);
+        dense.samples[slotAt(position, int(group) * pattern_.groupSize()).sample] =
+            vec4(sum / float(taken), kWholePixel);
     return true;
 }
 

@@ -48,8 +48,10 @@ private:
     SearchContext contextOf(const TileLists& in, std::size_t list) const;
     Slot slotAt(ivec2 position, int output) const;
     Output at(const Slot& slot) const;
+    int takenOf(const Rung& rung) const; ///< outputs of a group that are made
+    int memberAt(std::size_t group, int rank, const Rung& rung) const;
     void store(const Slot& slot, const Output& output, const Reconstructed& result);
-    void runTile(std::size_t tile, Counts& counts);
+    std::uint64_t runTile(std::size_t tile, Counts& counts); ///< dense samples of it
     bool takeFromMap(std::size_t group, ivec2 corner, const Rung& rung);
     bool takePixel(std::size_t group, ivec2 position, const Rung& rung);
     void runSlot(const Slot& slot, Counts& counts);

@@ -36,6 +36,17 @@ vec4 filteredGroup(const FilterTable& filter, const vec4& sample, ivec2 offset, 
     return weighted(sample, float(size) * weight);
 }
 
+/// A group of `size` samples, a plane apart; those that were taken stand for those left out.
+vec4 filteredEach(const FilterTable& filter, const vec4* sample, std::size_t plane, ivec2 offset, int size) {
+    vec4 taken(0);
+    int leftOut = 0;
+    for (int k = 0; k < size; ++k) {
+        taken += filtered(filter, sample[std::size_t(k) * plane], offset);
+        if (sample[std::size_t(k) * plane].w == kLeftOut) ++leftOut;
+    }
+    return float(size) / float(size - leftOut) * taken;
+}
+
 } // namespace
 
 float positionCode(float fractionX, float fractionY) {
@@ -60,8 +71,7 @@ vec4 FilmBuffer::partOf(const DenseSamples& dense, int x, int y, int begin, int 
                 if (sample->w == kWholePixel)
                     part += filteredGroup(filter_, *sample, ivec2(dx, dy), dense.groupSize);
                 else
-                    for (int k = 0; k < dense.groupSize; ++k)
-                        part += filtered(filter_, sample[k * plane], ivec2(dx, dy));
+                    part += filteredEach(filter_, sample, plane, ivec2(dx, dy), dense.groupSize);
             }
     return part;
 }

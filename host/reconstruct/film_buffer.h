@@ -11,7 +11,7 @@ namespace slant {
 /// Dense samples of a region of pixels, plane after plane: sample k of pixel (i, j) is
 /// samples[k * region.area() + j * region.width() + i]. rgb, and in w the place in the pixel
 /// (Output::positionCode), negative where there is no sample; kWholePixel where it stands for all of its
-/// group.
+/// group, kLeftOut where others of its group stand for it.
 struct DenseSamples {
     Rect region;
     std::vector<vec4> samples;

@@ -97,13 +97,16 @@ Rung rungOf(const Bins& bins, std::span<const uint> bricks, const LensBox& lens,
     const vec2 farthest = glm::max(glm::abs(lens.min), glm::abs(lens.max));
     const float lensRadius =
         glm::min(glm::sqrt(farthest.x * farthest.x + farthest.y * farthest.y), lensScale);
+    const float lensWidth = glm::max(lens.max.x - lens.min.x, lens.max.y - lens.min.y);
     Rung rung;
+    rung.thin = !bricks.empty() && bricks.size() <= std::size_t(kMaxLoopIterations);
     float finest = 1; ///< own radius, over R
     bool fits = bricks.size() <= std::size_t(kMaxLoopIterations);
     vec2 open(std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity());
     const auto close = [&] {
         const float least = glm::max(open.x, -open.y); // to either side
-        const float reach = glm::max(-open.x, open.y) * lensRadius;
+        const float most = glm::max(-open.x, open.y), reach = most * lensRadius;
+        rung.thin = rung.thin && most * lensWidth <= kThinPx;
         rung.sharp = rung.sharp || least < kLeastSlope;
         fits = fits && reach <= map.reachPx && (open.y - open.x) * lensRadius <= kWidestClusterPx &&
                rung.clusters.size() < kMaxClusters;
@@ -130,7 +133,7 @@ std::vector<vec4> lensPoints(const OutputPattern& pattern) {
     const float stagger = pattern.lensCells.x > pattern.lensCells.y ? 0.25f : 0.f;
     std::vector<vec4> points;
     for (const glm::uvec4& entry : pattern.entries) {
-        const vec2 middle = vec2(float(entry.w & 0xffffu), float(entry.w >> 16)) + 0.5f;
+        const vec2 middle = vec2(lensCell(entry)) + 0.5f;
         const vec2 cell = middle + vec2(0, (entry.w & 1u) != 0 ? stagger : -stagger);
         const vec2 uv = pattern.lensScale * pattern.aperture.at(cell * (2.f / vec2(pattern.lensCells)) - 1.f);
         points.emplace_back(uv, 0, 0);
@@ -171,7 +174,8 @@ void addMapShare(std::vector<float>& share, const Rect& frame, const Band& band,
                               column = std::size_t(x - band.region.x0) / kTileSize;
             float& sum = share[std::size_t(y - frame.y0) * frame.width() + (x - frame.x0)];
             for (std::size_t list = row * columns + column; list < rungs.size(); list += tiles)
-                if (rungs[list] != 0) sum += ((rungs[list] & kSharpRung) != 0 ? 0.5f : 1.f) / float(groups);
+                if (clustersIn(rungs[list]) != 0)
+                    sum += ((rungs[list] & kSharpRung) != 0 ? 0.5f : 1.f) / float(groups);
         }
 }
 

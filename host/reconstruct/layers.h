@@ -23,14 +23,22 @@ inline bool usesLayers(const LightField& field, Method method) {
 struct Rung {
     std::vector<Cluster> clusters; ///< front to back; empty where outputs have to be searched for in the bins
     bool sharp = false; ///< one of them is in focus: each output counts at its own place in the pixel
+    bool thin = false;  ///< a few outputs are enough, wherever they come from
 
-    /// As in the buffer of rungs, see kSharpRung.
-    uint code() const { return uint(clusters.size()) | (sharp && !clusters.empty() ? kSharpRung : 0); }
+    /// As in the buffer of rungs, see kSharpRung and kThinRung.
+    uint code() const {
+        return uint(clusters.size()) | (sharp && !clusters.empty() ? kSharpRung : 0) | (thin ? kThinRung : 0);
+    }
 };
 
 /// How the outputs of a list are made that look through `lens`, a part of the disc of radius `lensScale`.
 Rung rungOf(const Bins& bins, std::span<const uint> bricks, const LensBox& lens, float lensScale,
             const MapLayout& map);
+
+/// Number of clusters in a rung's code: 0 if the map does not serve.
+inline uint clustersIn(uint rung) {
+    return rung & (kSharpRung - 1);
+}
 
 /// Where the outputs of a pattern lie on the lens when they are taken from the map: in their cells, as even
 /// as can be.

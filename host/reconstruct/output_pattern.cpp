@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <span>
 
 namespace slant {
 namespace {
@@ -44,10 +45,10 @@ uint sobol(const std::vector<uint>& directions, uint index) {
 }
 
 /// Interleaves the bits of column and row.
-uint morton(uint column, uint row) {
+uint morton(glm::uvec2 cell) {
     uint code = 0;
     for (int bit = 0; bit < 16; ++bit)
-        code |= ((column >> bit) & 1u) << (2 * bit) | ((row >> bit) & 1u) << (2 * bit + 1);
+        code |= ((cell.x >> bit) & 1u) << (2 * bit) | ((cell.y >> bit) & 1u) << (2 * bit + 1);
     return code;
 }
 
@@ -55,9 +56,7 @@ uint morton(uint column, uint row) {
 LensBox cellsOf(const OutputPattern& pattern, std::size_t first, std::size_t last) {
     vec2 low(2), high(-2);
     for (std::size_t i = first; i < last; ++i) {
-        const uint cell = pattern.entries[i].w;
-        const vec2 corner =
-            2.f * vec2(float(cell & 0xffffu), float(cell >> 16)) / vec2(pattern.lensCells) - 1.f;
+        const vec2 corner = 2.f * vec2(lensCell(pattern.entries[i])) / vec2(pattern.lensCells) - 1.f;
         low = glm::min(low, corner);
         high = glm::max(high, corner + 2.f / vec2(pattern.lensCells));
     }
@@ -86,6 +85,31 @@ uint owenScramble(uint reversed, uint seed) {
     return reverseBits(x);
 }
 
+/// Outputs a pixel that are enough where all see the same: what they integrate is the pixel alone.
+constexpr int kThinOutputBits = 5;
+
+struct SequenceEntry {
+    uint index; ///< in the sequence
+    glm::uvec4 entry;
+};
+
+/// The first 2^bits points of a Sobol' sequence, of which two dimensions are a lens cell.
+std::vector<SequenceEntry> lensSequence(int bits) {
+    const auto lensX = sobolDirections(0, 0, {}), lensY = sobolDirections(1, 0, {1});
+    const auto pixelX = sobolDirections(2, 1, {1, 3}), pixelY = sobolDirections(3, 1, {1, 3, 1});
+    const auto time = sobolDirections(3, 2, {1, 1, 1});
+    const int columnBits = (bits + 1) / 2, rowBits = bits / 2;
+    std::vector<SequenceEntry> sequence;
+    for (uint i = 0; i < 1u << bits; ++i) {
+        const uint column = columnBits ? sobol(lensX, i) >> (32 - columnBits) : 0;
+        const uint row = rowBits ? sobol(lensY, i) >> (32 - rowBits) : 0;
+        sequence.push_back({i,
+                            {reverseBits(sobol(pixelX, i)), reverseBits(sobol(pixelY, i)),
+                             reverseBits(sobol(time, i)), column | row << 16}});
+    }
+    return sequence;
+}
+
 } // namespace
 
 OutputPattern makeOutputPattern(int outputsPerPixel, float slopePx, float lensScale, Aperture aperture) {
@@ -93,28 +117,27 @@ OutputPattern makeOutputPattern(int outputsPerPixel, float slopePx, float lensSc
         throw Error(ErrorCode::usage,
                     fmt::format("outputs a pixel must be a power of two from 1 to {}, not {}",
                                 kMaxOutputsPerPixel, outputsPerPixel));
-    const auto lensX = sobolDirections(0, 0, {}), lensY = sobolDirections(1, 0, {1});
-    const auto pixelX = sobolDirections(2, 1, {1, 3}), pixelY = sobolDirections(3, 1, {1, 3, 1});
-    const auto time = sobolDirections(3, 2, {1, 1, 1});
-
     const int bits = std::countr_zero(unsigned(outputsPerPixel));
-    const int columnBits = (bits + 1) / 2, rowBits = bits / 2;
     OutputPattern pattern;
     pattern.lensScale = lensScale;
     pattern.aperture = std::move(aperture);
-    pattern.lensCells = {1 << columnBits, 1 << rowBits};
-    for (uint i = 0; i < uint(outputsPerPixel); ++i) {
-        const uint column = columnBits ? sobol(lensX, i) >> (32 - columnBits) : 0;
-        const uint row = rowBits ? sobol(lensY, i) >> (32 - rowBits) : 0;
-        pattern.entries.emplace_back(reverseBits(sobol(pixelX, i)), reverseBits(sobol(pixelY, i)),
-                                     reverseBits(sobol(time, i)), column | row << 16);
-    }
-    std::sort(pattern.entries.begin(), pattern.entries.end(), [](const auto& left, const auto& right) {
-        return morton(left.w & 0xffffu, left.w >> 16) < morton(right.w & 0xffffu, right.w >> 16);
-    });
+    pattern.lensCells = {1 << (bits + 1) / 2, 1 << bits / 2};
     pattern.groupBits = groupBitsFor(outputsPerPixel, lensScale * slopePx);
+    pattern.thinBits = std::clamp(kThinOutputBits - (bits - pattern.groupBits), 0, pattern.groupBits);
+
+    std::vector<SequenceEntry> sequence = lensSequence(bits);
+    std::sort(sequence.begin(), sequence.end(), [](const auto& left, const auto& right) {
+        return morton(lensCell(left.entry)) < morton(lensCell(right.entry));
+    });
     const auto size = std::size_t(pattern.groupSize());
-    for (std::size_t first = 0; first < pattern.entries.size(); first += size) {
+    for (std::size_t first = 0; first < sequence.size(); first += size) {
+        const std::span group = std::span(sequence).subspan(first, size);
+        for (std::size_t k = 0; k < size; ++k) {
+            const auto rank = std::ranges::count_if(
+                group, [&](const SequenceEntry& other) { return other.index < group[k].index; });
+            group[std::size_t(rank)].entry.w |= uint(k) << 8;
+        }
+        for (const SequenceEntry& member : group) pattern.entries.push_back(member.entry);
         pattern.cells.push_back(cellsOf(pattern, first, first + size));
         const LensBox box = pattern.aperture.box(pattern.cells.back().min, pattern.cells.back().max);
         pattern.groups.push_back({pattern.lensScale * box.min, pattern.lensScale * box.max});
@@ -129,8 +152,8 @@ Output outputAt(ivec2 pixel, int output, const OutputPattern& pattern, uint seed
     const uint qy = owenScramble(entry.y, hash(pixelSeed ^ 0x63d83595u)) >> 20;
     const uint qt = owenScramble(entry.z, hash(pixelSeed ^ 0x9e3779b9u)) >> 8;
     const uint jitter = hash(pixelSeed + uint(output) * 0x9e3779b9u);
-    const vec2 cell = vec2(float(entry.w & 0xffffu), float(entry.w >> 16)) +
-                      (vec2(float(jitter & 0xffffu), float(jitter >> 16)) + 0.5f) * (1.f / 65536.f);
+    const vec2 cell =
+        vec2(lensCell(entry)) + (vec2(float(jitter & 0xffffu), float(jitter >> 16)) + 0.5f) * (1.f / 65536.f);
     Output o;
     o.xy = vec2(pixel) + (vec2(float(qx), float(qy)) + 0.5f) * (1.f / float(kSubpixels));
     o.uv = pattern.lensScale * pattern.aperture.at(cell * (2.f / vec2(pattern.lensCells)) - 1.f);

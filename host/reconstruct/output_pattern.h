@@ -15,12 +15,15 @@
 namespace slant {
 
 struct OutputPattern {
-    /// One an output: Sobol' bits, bit-reversed, of x, y and time; lens cell (column | row << 16).
+    /// One an output: Sobol' bits, bit-reversed, of x, y and time; lens cell (column | row << 16), with which
+    /// output of its group has its place in the group's order (<< 8). The first 2^n outputs of all groups in
+    /// that order are a Sobol' sequence too, as stratified as all.
     std::vector<glm::uvec4> entries;
     ivec2 lensCells{1, 1};       ///< columns, rows of the lens grid; powers of two
     float lensScale = 1;         ///< radius of the disc that outputs look through
     Aperture aperture;           ///< what that disc lets through
     int groupBits = 0;           ///< 2^groupBits consecutive entries make a group
+    int thinBits = 0;            ///< 2^thinBits of them are enough where a group sees one part of the scene
     std::vector<LensBox> groups; ///< lens positions of each group
     std::vector<LensBox> cells;  ///< the same as parts of the square [-1, 1]^2 that concentricDisc maps
 
@@ -34,6 +37,16 @@ inline constexpr int kMaxOutputsPerPixel = 4096;
 constexpr bool isOutputCount(int outputsPerPixel) {
     return outputsPerPixel >= 1 && outputsPerPixel <= kMaxOutputsPerPixel &&
            std::has_single_bit(unsigned(outputsPerPixel));
+}
+
+/// Lens cell of an entry: column, row.
+inline glm::uvec2 lensCell(const glm::uvec4& entry) {
+    return {entry.w & 255u, entry.w >> 16};
+}
+
+/// Which output of a group comes in the place of this one in the group's order.
+inline int inOrder(const glm::uvec4& entry) {
+    return int(entry.w >> 8 & 255u);
 }
 
 /// Groups are of up to kFilmBlock outputs, fewer where `slopePx`, the largest slope to either side, would

@@ -29,6 +29,12 @@ vec2 onFilm(Output o, vec2 offset) {
     return vec2(m.x * offset.x + m.y * offset.y, m.y * offset.x + m.z * offset.y);
 }
 
+/// Lens cell of an entry of the output pattern: column, row.
+uvec2 lensCell(uvec4 entry) { return uvec2(entry.w & 255u, entry.w >> 16); }
+
+/// Which output of a group comes in the place of this one in the group's order, for its first 2^n.
+uint inOrder(uvec4 entry) { return bitfieldExtract(entry.w, 8, 8); }
+
 /// Nested uniform scramble of bit-reversed x (Laine and Karras 2011; constants of Burley 2020, listing 1).
 uint owenScramble(uint reversed, uint seed) {
     uint x = reversed;

@@ -10,7 +10,7 @@ Output outputAt(ivec2 pixel, int index, uvec4 entry, ivec2 lensCells, float lens
     const uint pixelSeed = seedOf(pixel, seed);
     const uint qt = owenScramble(entry.z, hash(pixelSeed ^ 0x9e3779b9u)) >> 8;
     const uint jitter = hash(pixelSeed + uint(index) * 0x9e3779b9u);
-    const vec2 cell = vec2(float(entry.w & 0xffffu), float(entry.w >> 16)) +
+    const vec2 cell = vec2(lensCell(entry)) +
                       (vec2(float(jitter & 0xffffu), float(jitter >> 16)) + 0.5) * (1.0 / 65536.0);
     Output o = placed(pixel, entry, pixelSeed);
     o.uv = lensScale * lensPosition(cell * (2.0 / vec2(lensCells)) - 1.0);

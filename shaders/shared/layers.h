@@ -28,6 +28,10 @@ SLANT_SHARED_CONSTANT uint kSharpClusters = 2u;
 /// Rung of a list: the number of its clusters, 0 if the map does not serve it, with this bit where one of
 /// them is in focus.
 SLANT_SHARED_CONSTANT uint kSharpRung = 256u;
+/// Bit of the rung of any list whose lens positions see everything within kThinPx of one another: a few of
+/// its outputs are enough (OutputPattern::thinBits).
+SLANT_SHARED_CONSTANT uint kThinRung = 512u;
+SLANT_SHARED_CONSTANT float kThinPx = 1.0f;
 /// Steps from a slope of a cluster to where the map has it.
 SLANT_SHARED_CONSTANT int kSettleSteps = 3;
 /// What shows through less than this is not looked for.
@@ -77,6 +81,7 @@ struct LayerPush {
     uint firstGroup; // lens groups of the chunk
     uint count;      // lists
     int groupBits;   // 2^groupBits outputs of a pixel share a list
+    int thinBits;    // 2^thinBits of them are made in thin lists
     float lensScale; // as OutputPush
 };
 

@@ -28,6 +28,8 @@ SLANT_SHARED_CONSTANT int kSubpixels = 4096;
 /// Position code of a dense sample that stands for all outputs of its lens group in its pixel, wherever they
 /// lie: those in the planes after it are not read.
 SLANT_SHARED_CONSTANT float kWholePixel = 16777216.0f; // kSubpixels^2
+/// Position code of a dense sample that was left out: the others of its lens group in its pixel stand for it.
+SLANT_SHARED_CONSTANT float kLeftOut = -2.0f;
 /// An invocation stops before its loops have taken more steps than this, and the output is counted as
 /// overflowed. lavapipe breaks loops in silence after 65,535 steps of a vector of up to 16 invocations, which
 /// takes every step that any of them takes.
@@ -137,6 +139,7 @@ struct OutputPush {
     uint brickTotal;
     float radiusPx; // lists: margin around a tile; visibility: base radius
     int groupBits;  // 2^groupBits outputs of a pixel share a list
+    int takenBits;  // 2^takenBits of them are made, the first of the group's order
 };
 
 /// pixel_filter: planes of dense samples into a band of the film.

@@ -158,6 +158,24 @@ TEST_F(ReconstructParity, layerMapDoesNotDependOnMemory) {
     test::expectError(ErrorCode::resources, "layer map it has to be", [&] { compute(field, options); });
 }
 
+TEST_F(ReconstructParity, whereAllIsInFocusFewOutputsAreMade) {
+    const Rect frame{0, 0, 29, 21};
+    std::vector<synthetic::Layer> layers = synthetic::discsOverChecks();
+    layers.erase(layers.begin());
+    layers[1].slope = 0.4f;
+    for (const int spp : {3, 16}) { // from the map, from the bins
+        const LightField field = synthetic::sample(layers, frame, 15, spp, 7);
+        const Reconstruction thin = runBoth(field, optionsOf(Method::ladder, 128));
+        EXPECT_EQ(thin.report.outputs, std::uint64_t(31 * 23 * 32));
+        EXPECT_EQ(thin.report.layered, spp == 3 ? thin.report.outputs : 0);
+        const Image all = runBoth(field, optionsOf(Method::full, 128)).image;
+        double difference = 0;
+        for (std::size_t i = 0; i < all.pixels.size(); ++i)
+            difference += std::abs(double(all.pixels[i]) - double(thin.image.pixels[i]));
+        EXPECT_LT(difference / double(all.pixels.size()), spp == 3 ? 0.02 : 0.005);
+    }
+}
+
 TEST_F(ReconstructParity, outputsWithTooManyCandidatesAreDoneOnTheCpu) {
     LightField field = makeField({0, 0, 24, 17}, 50);
     synthetic::Random random(3);

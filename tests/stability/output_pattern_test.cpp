@@ -57,8 +57,7 @@ TEST(OutputPattern, everyLensCellIsHitOnceInEveryPixel) {
             std::set<std::pair<int, int>> cells;
             const std::vector<Output> outputs = outputsOf(pattern, pixel);
             for (int i = 0; i < count; ++i) {
-                const uint entry = pattern.entries[std::size_t(i)].w;
-                const glm::dvec2 cell(double(entry & 0xffffu), double(entry >> 16));
+                const glm::dvec2 cell(lensCell(pattern.entries[std::size_t(i)]));
                 const glm::dvec2 inside =
                     (exactSquare(outputs[std::size_t(i)].uv) + 1.0) / 2.0 * glm::dvec2(pattern.lensCells) -
                     cell;
@@ -90,6 +89,32 @@ TEST(OutputPattern, positionAndTimeAreStratified) {
             expectOneInEach(ts);
         }
     }
+}
+
+/// Where blur is small only the first of each group are made.
+TEST(OutputPattern, theFirstOfAllGroupsAreStratifiedToo) {
+    for (const int count : {8, 64, 128, 1024}) {
+        const OutputPattern pattern = makeOutputPattern(count, 5);
+        ASSERT_GT(pattern.groupBits, 0);
+        for (int bits = 0; bits <= pattern.groupBits; ++bits) {
+            std::vector<double> x, y, t;
+            std::set<int> taken;
+            for (int first = 0; first < count; first += pattern.groupSize())
+                for (int rank = 0; rank < 1 << bits; ++rank) {
+                    const int member = inOrder(pattern.entries[std::size_t(first + rank)]);
+                    ASSERT_LT(member, pattern.groupSize());
+                    taken.insert(first + member);
+                    const Output o = outputAt({3, 5}, first + member, pattern, 1);
+                    x.push_back(o.xy.x - 3);
+                    y.push_back(o.xy.y - 5);
+                    t.push_back(o.t);
+                }
+            EXPECT_EQ(taken.size(), x.size()) << "each once";
+            for (const std::vector<double>& values : {x, y, t}) expectOneInEach(values);
+        }
+    }
+    EXPECT_EQ(makeOutputPattern(32, 5).thinBits, makeOutputPattern(32, 5).groupBits);
+    EXPECT_EQ(makeOutputPattern(128, 5).groups.size() << makeOutputPattern(128, 5).thinBits, 32u);
 }
 
 TEST(OutputPattern, pixelsAndSeedsDiffer) {

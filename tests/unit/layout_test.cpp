@@ -41,7 +41,7 @@ const Layout kLayouts[] = {
     STRUCT(OutputPush, MEMBER(OutputPush, grid), MEMBER(OutputPush, outputs), MEMBER(OutputPush, lensCells),
            MEMBER(OutputPush, lensScale), MEMBER(OutputPush, firstOutput), MEMBER(OutputPush, count),
            MEMBER(OutputPush, firstGroup), MEMBER(OutputPush, groupCount), MEMBER(OutputPush, brickTotal),
-           MEMBER(OutputPush, radiusPx), MEMBER(OutputPush, groupBits)),
+           MEMBER(OutputPush, radiusPx), MEMBER(OutputPush, groupBits), MEMBER(OutputPush, takenBits)),
     STRUCT(FilterPush, MEMBER(FilterPush, regionSize), MEMBER(FilterPush, reach),
            MEMBER(FilterPush, tableLength), MEMBER(FilterPush, filmSize), MEMBER(FilterPush, firstRow),
            MEMBER(FilterPush, rowCount), MEMBER(FilterPush, firstPlane), MEMBER(FilterPush, planeCount),
@@ -51,7 +51,8 @@ const Layout kLayouts[] = {
     STRUCT(ReducePush, MEMBER(ReducePush, size), MEMBER(ReducePush, source), MEMBER(ReducePush, target),
            MEMBER(ReducePush, surfaceGap), MEMBER(ReducePush, code)),
     STRUCT(LayerPush, MEMBER(LayerPush, outputs), MEMBER(LayerPush, map), MEMBER(LayerPush, firstGroup),
-           MEMBER(LayerPush, count), MEMBER(LayerPush, groupBits), MEMBER(LayerPush, lensScale)),
+           MEMBER(LayerPush, count), MEMBER(LayerPush, groupBits), MEMBER(LayerPush, thinBits),
+           MEMBER(LayerPush, lensScale)),
     STRUCT(LowerBoundPush, MEMBER(LowerBoundPush, keyCount), MEMBER(LowerBoundPush, count)),
 };
 
