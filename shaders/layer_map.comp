@@ -49,7 +49,7 @@ bool hides(Sweep sweep, Brick brick) { return false; }
 #include "lib/search.glsl"
 
 void main() {
-    const int side = 1 << (findMSB(push.outputs.outputsPerPixel) >> 1); // texels along that of a pixel
+    const int side = 1 << (findMSB(uint(push.outputs.outputsPerPixel)) >> 1); // texels along that of a pixel
     const ivec2 place = ivec2(gl_GlobalInvocationID.xy), size = push.outputs.regionSize * side;
     if (place.x >= size.x || place.y >= size.y) return;
     const ivec2 tile = place / (kTileSize * side);

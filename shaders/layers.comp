@@ -1,6 +1,6 @@
 #version 460
-// The outputs of lists that the layer map serves: one invocation takes all those of a pixel. A list in which one of
-// them meets nothing is left to reconstruct.comp. As host/reconstruct/layers.cpp.
+// The outputs of lists that the layer map serves: one invocation takes all those of a pixel. Where one of them meets
+// nothing, the pixel is left to reconstruct.comp, or the whole list. As host/reconstruct/layers.cpp.
 #extension GL_GOOGLE_include_directive : require
 #include "lib/map_texel.glsl"
 #include "lib/output.glsl"
@@ -11,8 +11,9 @@ layout(set = 0, binding = 1) uniform textureBuffer clusters;
 layout(set = 0, binding = 2) uniform utextureBuffer texels;
 layout(set = 0, binding = 3) uniform textureBuffer lensPoints;
 layout(set = 0, binding = 4) uniform utextureBuffer pattern;
-layout(set = 0, binding = 5, r32ui) uniform uimageBuffer rungs;
+layout(set = 0, binding = 5) uniform utextureBuffer rungs;
 layout(set = 0, binding = 6, rgba32f) uniform writeonly imageBuffer dense;
+layout(set = 0, binding = 7, r32ui) uniform uimageBuffer missed; // two a list: a bit for each pixel
 layout(push_constant) uniform Push { LayerPush push; };
 
 struct Lookup {
@@ -107,11 +108,19 @@ bool look(vec2 x, vec2 uv, int clusterBegin, uint clusterCount, inout vec3 sum) 
     return transmittance != 1.0;
 }
 
+/// Leaves this pixel to the bins, or all of the list.
+void miss(int list, uint clusterCount) {
+    const bool whole = clusterCount > kPartClusters;
+    const uint word = gl_LocalInvocationIndex >> 5, bit = 1u << (gl_LocalInvocationIndex & 31u);
+    imageAtomicOr(missed, 2 * list + int(word), whole ? ~0u : bit);
+    if (whole) imageAtomicOr(missed, 2 * list + 1 - int(word), ~0u);
+}
+
 void main() {
     const uvec3 tile = gl_WorkGroupID;
     const ivec2 position = ivec2(gl_GlobalInvocationID.xy), size = push.outputs.regionSize;
     const int list = (int(tile.z) * push.outputs.tileCount.y + int(tile.y)) * push.outputs.tileCount.x + int(tile.x);
-    const uint rung = imageLoad(rungs, list).x, clusterCount = rung & (kSharpRung - 1u);
+    const uint rung = texelFetch(rungs, list).x, clusterCount = rung & (kSharpRung - 1u);
     if (clusterCount == 0u) return;
     const bool sharp = (rung & kSharpRung) != 0u, thin = (rung & kThinRung) != 0u;
     const int groupSize = 1 << push.groupBits, taken = thin ? 1 << push.thinBits : groupSize;
@@ -132,7 +141,7 @@ void main() {
                 sum = vec3(0.0);
             }
             if (!look(o.xy, texelFetch(lensPoints, firstOutput + i).xy, clusterBegin, clusterCount, sum)) {
-                imageStore(rungs, list, uvec4(rung & kThinRung));
+                miss(list, clusterCount);
                 return;
             }
             value = vec4(sum, o.positionCode);

@@ -14,6 +14,7 @@ layout(set = 0, binding = 9, r32ui) uniform writeonly uimageBuffer visibilityLis
 layout(set = 0, binding = 10, r32ui) uniform writeonly uimageBuffer overflowList;
 layout(set = 0, binding = 11) uniform utextureBuffer left; // lists to search for: tile x, y, lens group, list
 layout(set = 0, binding = 12) uniform textureBuffer apertureTable;
+layout(set = 0, binding = 14) uniform utextureBuffer missed; // two a list: a bit for each pixel that is left
 
 float apertureAt(int i) { return texelFetch(apertureTable, i).x; }
 layout(set = 0, binding = 13) uniform textureBuffer lensMap;
@@ -76,6 +77,8 @@ void main() {
     const ivec2 position = kTileSize * ivec2(tile) + 2 * ivec2(block & 3u, block >> 2) +
                            ivec2(quad & 1u, quad >> 1);
     if (position.x >= outputs.regionSize.x || position.y >= outputs.regionSize.y) return;
+    const uint inTile = uint(position.y % kTileSize * kTileSize + position.x % kTileSize);
+    if ((texelFetch(missed, int(2u * list + (inTile >> 5))).x >> (inTile & 31u) & 1u) == 0u) return;
 
     const int index = push.firstOutput + int(k);
     Output o = outputAt(outputs.regionOrigin + position, index, texelFetch(pattern, index), push.lensCells,

@@ -13,6 +13,7 @@ layout(set = 0, binding = 1) uniform utextureBuffer listBricks;
 layout(set = 0, binding = 2) uniform textureBuffer lensBoxes;
 layout(set = 0, binding = 3, r32ui) uniform writeonly uimageBuffer rungs;
 layout(set = 0, binding = 4, rgba32f) uniform writeonly imageBuffer clusters; // from the list's start on
+layout(set = 0, binding = 5, r32ui) uniform writeonly uimageBuffer missed;     // two a list
 layout(push_constant) uniform Push { LayerPush push; };
 
 struct Clusters {
@@ -63,9 +64,12 @@ void main() {
     }
     if (end > begin) close(found, lensRadius, lensWidth, begin);
     const bool tooCoarse = finest * push.map.radiusPx * float(push.map.texels) < 1.0;
-    found.fits = found.fits && last == end && !(found.sharp && (tooCoarse || found.count > kSharpClusters));
+    found.fits = found.fits && found.count > 0u && last == end && !(found.sharp && (tooCoarse || found.count > kSharpClusters));
     uint rung = found.fits ? found.count : 0u;
     if (found.fits && found.sharp) rung |= kSharpRung;
     if (found.thin && last == end && end > begin) rung |= kThinRung;
     imageStore(rungs, int(list), uvec4(rung));
+    const uvec4 left = uvec4(found.fits ? 0u : ~0u);
+    imageStore(missed, 2 * int(list), left);
+    imageStore(missed, 2 * int(list) + 1, left);
 }

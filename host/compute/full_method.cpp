@@ -7,6 +7,7 @@
 #include "reconstruct/stage_timer.h"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
 #include <optional>
 
@@ -71,38 +72,42 @@ private:
         run_.observe("layer_map", layerPasses_->texels());
     }
 
-    /// How the lists of a chunk are made, and of how many outputs.
+    /// How many outputs of a chunk are made, and the lists that are left to be searched for in the bins.
     struct Work {
-        OutputPasses::Left left; ///< to be searched for in the bins
+        OutputPasses::Left left;
         std::uint64_t outputs = 0, layered = 0;
     };
-    /// Takes what the layer map serves of a chunk, if there is one.
-    Work takeFromMap(const Band& band, const DeviceLists& lists, const OutputPush& push,
+    /// Takes what the layer map serves of a chunk, if there is one; of each list, `missed` gets the pixels
+    /// that it does not serve.
+    Work takeFromMap(const Band& band, const DeviceLists& lists, const OutputPush& push, const Buffer& missed,
                      const Buffer& dense) {
-        std::vector<uint> rungs(lists.start.texels() - 1, 0);
+        ListRungs rungs(lists.start.texels() - 1);
         if (layerPasses_) {
-            const Buffer buffer(run_.device, TexelFormat::r32ui, rungs.size());
+            const Buffer buffer(run_.device, TexelFormat::r32ui, rungs.codes.size());
             if (run_.observer) run_.commands.fill(dense, 0); // planes that nobody reads
             layerPasses_->record(run_.commands, listPasses_, lists, outputPasses_.pattern(), push, buffer,
-                                 dense);
+                                 missed, dense);
             run_.commands.run();
-            buffer.download(rungs);
+            buffer.download(rungs.codes);
+            missed.download(rungs.missed);
             run_.observe("rungs", buffer);
+            run_.observe("missed", missed);
             addMapShare(run_.report.mapShare, run_.field.frame, band, rungs, pattern_.groups.size());
+        } else {
+            run_.commands.fill(missed, ~0u);
         }
         Work work;
         const ivec2 tiles = push.outputs.tileCount;
-        for (uint list = 0; list < rungs.size(); ++list) {
+        for (uint list = 0; list < rungs.codes.size(); ++list) {
             const uint tile = list % uint(tiles.x * tiles.y);
             const ivec2 place(tile % tiles.x, tile / tiles.x);
-            const ivec2 size = glm::min(push.outputs.regionSize - kTileSize * place, ivec2(kTileSize));
-            const bool thin = (rungs[list] & kThinRung) != 0, layered = clustersIn(rungs[list]) != 0;
-            const std::uint64_t outputs = std::uint64_t(size.x * size.y)
-                                          << (thin ? pattern_.thinBits : pattern_.groupBits);
-            work.outputs += outputs;
-            if (layered)
-                work.layered += outputs;
-            else
+            const std::uint64_t inside = tilePixels(push.outputs.regionSize - kTileSize * place);
+            const std::uint64_t missedInside = inside & rungs.missedOf(list);
+            const bool thin = (rungs.codes[list] & kThinRung) != 0;
+            const int bits = thin ? pattern_.thinBits : pattern_.groupBits;
+            work.outputs += std::uint64_t(std::popcount(inside)) << bits;
+            work.layered += std::uint64_t(std::popcount(inside & ~missedInside)) << bits;
+            if (missedInside != 0)
                 (thin ? work.left.thin : work.left.whole)
                     .emplace_back(place.x, place.y, list / uint(tiles.x * tiles.y), list);
         }
@@ -122,9 +127,10 @@ private:
             }
             run_.observe("lists.start", lists.start);
             run_.observe("lists.bricks", lists.ids);
-            const Work work = takeFromMap(band, lists, push, dense);
+            const Buffer missed(run_.device, TexelFormat::r32ui, 2 * (lists.start.texels() - 1));
+            const Work work = takeFromMap(band, lists, push, missed, dense);
             const OutputPasses::Result result =
-                outputPasses_.run(run_.commands, listPasses_, bins_, lists, work.left, push, dense);
+                outputPasses_.run(run_.commands, listPasses_, bins_, lists, work.left, missed, push, dense);
             if (!result.overflowed.empty()) finishOnCpu(band, push, result.overflowed, dense);
             report.layered += work.layered;
             report.visibility += result.visibility;

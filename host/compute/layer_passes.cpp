@@ -55,7 +55,7 @@ void LayerPasses::makeMap(CommandList& commands, const DeviceBins& bins, const M
 
 void LayerPasses::record(CommandList& commands, const ListPasses& listPasses, const DeviceLists& lists,
                          const Buffer& pattern, const OutputPush& outputs, const Buffer& rungs,
-                         const Buffer& dense) {
+                         const Buffer& missed, const Buffer& dense) {
     LayerPush push{};
     push.outputs = outputs.outputs;
     push.map = layout_;
@@ -66,9 +66,10 @@ void LayerPasses::record(CommandList& commands, const ListPasses& listPasses, co
     push.thinBits = outputs.takenBits;
     if (clusters_.texels() < lists.bricks.texels())
         clusters_ = Buffer(device_, TexelFormat::rgba32f, lists.bricks.texels());
-    commands.dispatch(rungs_, {lists.start, lists.bricks, listPasses.lensBoxes(), rungs, clusters_}, push,
-                      rungs_.gridFor(push.count));
-    commands.dispatch(layers_, {lists.start, clusters_, texels_, lensPoints_, pattern, rungs, dense}, push,
+    commands.dispatch(rungs_, {lists.start, lists.bricks, listPasses.lensBoxes(), rungs, clusters_, missed},
+                      push, rungs_.gridFor(push.count));
+    commands.dispatch(layers_, {lists.start, clusters_, texels_, lensPoints_, pattern, rungs, dense, missed},
+                      push,
                       {std::uint32_t(outputs.outputs.tileCount.x), std::uint32_t(outputs.outputs.tileCount.y),
                        outputs.groupCount});
 }

@@ -19,9 +19,11 @@ public:
                  const std::function<MapTexel(ivec2)>& resolve);
 
     /// Records: takes from the map, into `dense`, what it can serve of the lists of a chunk; into `rungs`, of
-    /// each list, its rung (kSharpRung); 0: not served. All must live until the commands ran.
+    /// each list, its rung (kSharpRung), and into `missed` the pixels that it does not serve, 64 bits a list.
+    /// All must live until the commands ran.
     void record(CommandList& commands, const ListPasses& listPasses, const DeviceLists& lists,
-                const Buffer& pattern, const OutputPush& push, const Buffer& rungs, const Buffer& dense);
+                const Buffer& pattern, const OutputPush& push, const Buffer& rungs, const Buffer& missed,
+                const Buffer& dense);
 
     const Buffer& texels() const { return texels_; }
 

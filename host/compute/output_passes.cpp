@@ -32,8 +32,8 @@ OutputPasses::Counters OutputPasses::counters() const {
 }
 
 OutputPasses::Result OutputPasses::run(CommandList& commands, ListPasses& listPasses, const DeviceBins& bins,
-                                       const DeviceLists& lists, const Left& left, OutputPush push,
-                                       const Buffer& dense) {
+                                       const DeviceLists& lists, const Left& left, const Buffer& missed,
+                                       OutputPush push, const Buffer& dense) {
     reserve(dense.texels());
     commands.fill(counters_, 0);
     push.radiusPx = bins.grid.radiusPx;
@@ -45,7 +45,7 @@ OutputPasses::Result OutputPasses::run(CommandList& commands, ListPasses& listPa
         commands.dispatch(
             nearest_,
             {bins.positions, bins.radiances, bins.cellStart, lists.start, lists.cellBases, lists.bricks,
-             pattern_, dense, counters_, visibilityList_, overflowList_, buffer, aperture_, lensMap_},
+             pattern_, dense, counters_, visibilityList_, overflowList_, buffer, aperture_, lensMap_, missed},
             push, nearest_.gridFor((std::uint64_t(push.count) * kTileSize * kTileSize) << bits));
         commands.run();
     }

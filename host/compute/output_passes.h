@@ -22,10 +22,12 @@ public:
         std::vector<uvec4> whole, thin;
     };
 
-    /// Fills `dense` (planes of region pixels) for the lists `left`; `lists` have a margin of 2 R.
+    /// Fills `dense` (planes of region pixels) for the lists `left`, in these the pixels
+    /// `missed`, 64 bits a list; `lists` have a margin of 2 R.
     /// Runs on `commands`, which must be empty, and leaves it empty.
     Result run(CommandList& commands, ListPasses& listPasses, const DeviceBins& bins,
-               const DeviceLists& lists, const Left& left, OutputPush push, const Buffer& dense);
+               const DeviceLists& lists, const Left& left, const Buffer& missed, OutputPush push,
+               const Buffer& dense);
 
     /// Entries of the output pattern.
     const Buffer& pattern() const { return pattern_; }

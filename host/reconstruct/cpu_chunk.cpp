@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace slant {
 
@@ -33,7 +34,7 @@ SearchContext CpuChunk::contextOf(const TileLists& in, std::size_t list) const {
 void CpuChunk::run(Monitor& monitor, ReconstructReport& report) {
     lists = makeLists(2 * bins_.grid.radiusPx, lensBounds);
     const std::size_t tiles = std::size_t(layout_.tileCount.x) * layout_.tileCount.y;
-    rungs.assign(tiles * groups_.size(), 0);
+    rungs = ListRungs(tiles * groups_.size());
     parallelFor(0, tiles, 1, [&](std::size_t first, std::size_t last) {
         Counts counts;
         std::uint64_t samples = 0;
@@ -81,42 +82,45 @@ void CpuChunk::store(const Slot& slot, const Output& output, const Reconstructed
 std::uint64_t CpuChunk::runTile(std::size_t tile, Counts& counts) {
     const ivec2 corner = kTileSize * ivec2(int(tile) % layout_.tileCount.x, int(tile) / layout_.tileCount.x);
     const ivec2 end = glm::min(corner + kTileSize, layout_.regionSize);
+    const std::uint64_t inside = tilePixels(end - corner);
     const std::size_t tiles = std::size_t(layout_.tileCount.x) * layout_.tileCount.y;
-    const int groupSize = pattern_.groupSize();
     for (std::size_t group = 0; group < groups_.size(); ++group) {
         const std::size_t list = group * tiles + tile;
         Rung rung;
+        std::uint64_t missed = ~0ull;
         if (map_)
             rung = rungOf(bins_, contextOf(lists, list).bricks, groups_[group], pattern_.lensScale,
                           map_->layout);
-        const auto outputs = std::uint64_t((end.x - corner.x) * (end.y - corner.y) * takenOf(rung));
-        counts.outputs += outputs;
-        if (!rung.clusters.empty() && !takeFromMap(group, corner, rung)) rung.clusters.clear();
-        rungs[list] = rung.code();
-        if (!rung.clusters.empty()) {
-            counts.layered += outputs;
-            continue;
-        }
-        for (int rank = 0; rank < groupSize; ++rank)
-            for (int y = corner.y; y < end.y; ++y)
-                for (int x = corner.x; x < end.x; ++x) {
-                    const Slot slot = slotAt(ivec2(x, y), memberAt(group, rank, rung));
-                    if (rank < takenOf(rung))
-                        runSlot(slot, counts);
-                    else
-                        dense.samples[slot.sample] = vec4(0, 0, 0, kLeftOut);
-                }
+        if (!rung.clusters.empty()) missed = takeFromMap(group, corner, rung);
+        rungs.set(list, rung, missed);
+        const auto taken = std::uint64_t(takenOf(rung));
+        counts.outputs += taken * std::uint64_t(std::popcount(inside));
+        counts.layered += taken * std::uint64_t(std::popcount(inside & ~missed));
+        for (int y = corner.y; y < end.y; ++y)
+            for (int x = corner.x; x < end.x; ++x)
+                if ((missed >> tileBit({x, y}) & 1) != 0) searchPixel(group, {x, y}, rung, counts);
     }
-    return std::uint64_t((end.x - corner.x) * (end.y - corner.y)) * outputCount_;
+    return std::uint64_t(std::popcount(inside)) * std::uint64_t(outputCount_);
 }
 
-/// False where an output meets nothing: then the map lacks something there, and all of the list are searched
-/// for. Whether that is so must not depend on bands, so positions outside the region are looked at too.
-bool CpuChunk::takeFromMap(std::size_t group, ivec2 corner, const Rung& rung) {
+void CpuChunk::searchPixel(std::size_t group, ivec2 position, const Rung& rung, Counts& counts) {
+    for (int rank = 0; rank < pattern_.groupSize(); ++rank) {
+        const Slot slot = slotAt(position, memberAt(group, rank, rung));
+        if (rank < takenOf(rung))
+            runSlot(slot, counts);
+        else
+            dense.samples[slot.sample] = vec4(0, 0, 0, kLeftOut);
+    }
+}
+
+/// The pixels of which an output meets nothing, a bit each. Which they are must not depend on bands, so
+/// positions outside the region are looked at too.
+std::uint64_t CpuChunk::takeFromMap(std::size_t group, ivec2 corner, const Rung& rung) {
+    std::uint64_t missed = 0;
     for (int y = corner.y; y < corner.y + kTileSize; ++y)
         for (int x = corner.x; x < corner.x + kTileSize; ++x)
-            if (!takePixel(group, ivec2(x, y), rung)) return false;
-    return true;
+            if (!takePixel(group, ivec2(x, y), rung)) missed |= 1ull << tileBit({x, y});
+    return missed != 0 && rung.clusters.size() > kPartClusters ? ~0ull : missed;
 }
 
 bool CpuChunk::takePixel(std::size_t group, ivec2 position, const Rung& rung) {

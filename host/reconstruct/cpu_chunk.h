@@ -30,7 +30,7 @@ public:
     DenseSamples dense;
     TileLists lists;
     std::vector<float> lensBounds; ///< that the lists are from, through a lens map
-    std::vector<uint> rungs;       ///< of each list, see kSharpRung
+    ListRungs rungs{0};
 
 private:
     /// Where an output is stored, and in which list its bricks stand.
@@ -52,8 +52,9 @@ private:
     int memberAt(std::size_t group, int rank, const Rung& rung) const;
     void store(const Slot& slot, const Output& output, const Reconstructed& result);
     std::uint64_t runTile(std::size_t tile, Counts& counts); ///< dense samples of it
-    bool takeFromMap(std::size_t group, ivec2 corner, const Rung& rung);
+    std::uint64_t takeFromMap(std::size_t group, ivec2 corner, const Rung& rung);
     bool takePixel(std::size_t group, ivec2 position, const Rung& rung);
+    void searchPixel(std::size_t group, ivec2 position, const Rung& rung, Counts& counts);
     void runSlot(const Slot& slot, Counts& counts);
     void add(const Counts& counts);
     void widen(ReconstructReport& report);

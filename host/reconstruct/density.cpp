@@ -25,7 +25,7 @@ float leastAround(const LightField& field, const SampleDensity& density) {
     float least = std::numeric_limits<float>::infinity();
     std::mutex mutex;
     parallelFor(0, field.samples.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
-        float local = least;
+        float local = std::numeric_limits<float>::infinity();
         for (std::size_t i = first; i < last; ++i) {
             const LightFieldSample& s = field.samples[i];
             if (std::isfinite(s.slope))

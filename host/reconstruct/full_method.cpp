@@ -57,7 +57,8 @@ void fullMethod(CpuRun& run) {
             run.observe("lists.start", chunk.lists.start);
             run.observe("lists.bricks", chunk.lists.bricks);
             if (map) {
-                run.observe("rungs", chunk.rungs);
+                run.observe("rungs", chunk.rungs.codes);
+                run.observe("missed", chunk.rungs.missed);
                 addMapShare(run.report.mapShare, frame, band, chunk.rungs, pattern.groups.size());
             }
             run.observe("dense", chunk.dense.samples);

@@ -163,19 +163,26 @@ std::optional<vec3> lookThrough(const LayerMap& map, std::span<const Cluster> cl
     return rgb + transmittance * last;
 }
 
-void addMapShare(std::vector<float>& share, const Rect& frame, const Band& band, std::span<const uint> rungs,
+std::uint64_t tilePixels(ivec2 size) {
+    std::uint64_t bits = 0;
+    for (int y = 0; y < glm::min(size.y, kTileSize); ++y)
+        for (int x = 0; x < glm::min(size.x, kTileSize); ++x) bits |= 1ull << tileBit({x, y});
+    return bits;
+}
+
+void addMapShare(std::vector<float>& share, const Rect& frame, const Band& band, const ListRungs& rungs,
                  std::size_t groups) {
     share.resize(frame.area());
     const std::size_t columns = std::size_t(band.region.width() + kTileSize - 1) / kTileSize;
     const std::size_t tiles = columns * (std::size_t(band.region.height() + kTileSize - 1) / kTileSize);
     for (int y = band.y0; y < band.y1; ++y)
         for (int x = frame.x0; x < frame.x1; ++x) {
-            const std::size_t row = std::size_t(y - band.region.y0) / kTileSize,
-                              column = std::size_t(x - band.region.x0) / kTileSize;
+            const ivec2 position(x - band.region.x0, y - band.region.y0);
+            const std::size_t tile = std::size_t(position.y / kTileSize) * columns + position.x / kTileSize;
             float& sum = share[std::size_t(y - frame.y0) * frame.width() + (x - frame.x0)];
-            for (std::size_t list = row * columns + column; list < rungs.size(); list += tiles)
-                if (clustersIn(rungs[list]) != 0)
-                    sum += ((rungs[list] & kSharpRung) != 0 ? 0.5f : 1.f) / float(groups);
+            for (std::size_t list = tile; list < rungs.codes.size(); list += tiles)
+                if ((rungs.missedOf(list) >> tileBit(position) & 1) == 0)
+                    sum += ((rungs.codes[list] & kSharpRung) != 0 ? 0.5f : 1.f) / float(groups);
         }
 }
 

@@ -35,10 +35,29 @@ struct Rung {
 Rung rungOf(const Bins& bins, std::span<const uint> bricks, const LensBox& lens, float lensScale,
             const MapLayout& map);
 
-/// Number of clusters in a rung's code: 0 if the map does not serve.
-inline uint clustersIn(uint rung) {
-    return rung & (kSharpRung - 1);
+/// How the lists of a chunk are made.
+struct ListRungs {
+    std::vector<uint> codes;  ///< of each list, see Rung::code
+    std::vector<uint> missed; ///< two a list: see missedOf
+
+    explicit ListRungs(std::size_t lists) : codes(lists, 0), missed(2 * lists, ~0u) {}
+    void set(std::size_t list, const Rung& rung, std::uint64_t missedPixels) {
+        codes[list] = rung.code();
+        missed[2 * list] = uint(missedPixels);
+        missed[2 * list + 1] = uint(missedPixels >> 32);
+    }
+    /// The pixels of a list's tile that the map does not serve, bit tileBit each.
+    std::uint64_t missedOf(std::size_t list) const {
+        return missed[2 * list] | std::uint64_t(missed[2 * list + 1]) << 32;
+    }
+};
+
+/// Of a position in a region whose tiles begin at its corner.
+inline int tileBit(ivec2 position) {
+    return position.y % kTileSize * kTileSize + position.x % kTileSize;
 }
+/// The bits of the pixels of a tile of which `size` lie in the region; more than kTileSize count as that.
+std::uint64_t tilePixels(ivec2 size);
 
 /// Where the outputs of a pattern lie on the lens when they are taken from the map: in their cells, as even
 /// as can be.
@@ -51,8 +70,8 @@ float spreadPerPx(const OutputPattern& pattern);
 std::optional<vec3> lookThrough(const LayerMap& map, std::span<const Cluster> clusters, vec2 x, vec2 uv);
 
 /// Adds to `share`, of the pixels of `frame` that a band finishes, what a chunk of its lists brings: 1 for a
-/// list that the map serves, 1/2 if it is sharp, over `groups` in all.
-void addMapShare(std::vector<float>& share, const Rect& frame, const Band& band, std::span<const uint> rungs,
+/// list that the map serves there, 1/2 if it is sharp, over `groups` in all.
+void addMapShare(std::vector<float>& share, const Rect& frame, const Band& band, const ListRungs& rungs,
                  std::size_t groups);
 
 } // namespace slant

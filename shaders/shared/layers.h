@@ -24,10 +24,14 @@ SLANT_SHARED_CONSTANT uint kMaxClusters = 16u;
 /// and does not serve; where it serves, each output is looked up at its own place in the pixel.
 SLANT_SHARED_CONSTANT float kLeastSlope = 0.5f;
 /// Most clusters of such a list: the rims of crowds in focus are more than two layers can hold.
-SLANT_SHARED_CONSTANT uint kSharpClusters = 2u;
+SLANT_SHARED_CONSTANT uint kSharpClusters = 4u;
 /// Rung of a list: the number of its clusters, 0 if the map does not serve it, with this bit where one of
 /// them is in focus.
 SLANT_SHARED_CONSTANT uint kSharpRung = 256u;
+/// Where some outputs of a pixel meet nothing in the map, that pixel of the list is searched for in the bins;
+/// all pixels are where the list has more clusters than this: then the map lacks more there than what was
+/// missed.
+SLANT_SHARED_CONSTANT uint kPartClusters = 3u;
 /// Bit of the rung of any list whose lens positions see everything within kThinPx of one another: a few of
 /// its outputs are enough (OutputPattern::thinBits).
 SLANT_SHARED_CONSTANT uint kThinRung = 512u;
