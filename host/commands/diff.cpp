@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "commands/commands.h"
 #include "commands/options.h"
+#include "commands/terminal_monitor.h"
 #include "image/exr.h"
 #include "image/flip.h"
 #include "image/heat_map.h"
@@ -29,6 +30,20 @@ struct Figures {
     double flip; ///< mean
 };
 
+/// Channels beside the colours that both images have, under the name that they share, as N of N.X.
+struct Layer {
+    std::string name;
+    std::vector<std::string> channels;
+    Metrics metrics;
+};
+
+/// What is compared.
+struct Parts {
+    std::vector<std::string> colours;  ///< R, G, B if both images have them; else none, and all is one
+    std::vector<Layer> layers;         ///< in the order of the image's channels
+    std::vector<std::string> unpaired; ///< channels of one image only
+};
+
 bool isPng(const std::string& path) {
     const std::string extension = std::filesystem::path(path).extension().string();
     return extension == ".png" || extension == ".PNG";
@@ -44,11 +59,38 @@ Image readLinear(const std::string& path) {
     return image;
 }
 
+Parts partsOf(const Image& image, const Image& reference) {
+    const auto isColour = [](const std::string& name) { return name == "R" || name == "G" || name == "B"; };
+    const auto hasColours = [](const Image& in) {
+        return in.channel("R") >= 0 && in.channel("G") >= 0 && in.channel("B") >= 0;
+    };
+    if (!hasColours(image) || !hasColours(reference)) return {};
+    Parts parts{{"R", "G", "B"}, {}, {}};
+    for (const std::string& channel : image.channels) {
+        if (isColour(channel)) continue;
+        if (reference.channel(channel) < 0) {
+            parts.unpaired.push_back(channel);
+            continue;
+        }
+        const std::string name = channel.substr(0, channel.rfind('.'));
+        auto layer = std::ranges::find(parts.layers, name, &Layer::name);
+        if (layer == parts.layers.end()) layer = parts.layers.insert(layer, {name, {}, {}});
+        layer->channels.push_back(channel);
+    }
+    for (const std::string& channel : reference.channels)
+        if (image.channel(channel) < 0) parts.unpaired.push_back(channel);
+    return parts;
+}
+
 /// What is out of bounds and by how much, each bound in its own words; empty if all is well.
-std::vector<std::string> violations(const Figures& figures, const DiffOptions& options) {
+std::vector<std::string> violations(const Figures& figures, const Parts& parts, const DiffOptions& options) {
     const Metrics& m = figures.metrics;
     std::vector<std::string> list;
     if (m.nonFinite > 0) list.push_back(fmt::format("{} values are NaN or infinite", m.nonFinite));
+    for (const Layer& layer : parts.layers)
+        if (layer.metrics.nonFinite > 0)
+            list.push_back(
+                fmt::format("{} values of {} are NaN or infinite", layer.metrics.nonFinite, layer.name));
     const auto above = [&](const char* name, double value, const std::optional<double>& bound) {
         if (bound && !(value <= *bound))
             list.push_back(
@@ -78,7 +120,16 @@ std::string placeText(const ValuePlace& place, const Image& image, float value, 
                        image.channels[std::size_t(place.channel)], value, reference);
 }
 
-void printTable(const Image& image, const Figures& figures, const DiffOptions& options) {
+void printLayer(const Layer& layer) {
+    const Metrics& m = layer.metrics;
+    if (m.nonFinite > 0)
+        fmt::print("  {:<15}  {} non-finite\n", oneLine(layer.name), m.nonFinite);
+    else
+        fmt::print("  {:<15}  MSE {:.6g}, relMSE {:.6g}, maximum error {:.6g}, mean drift {:+.3f} %\n",
+                   oneLine(layer.name), m.mse, m.relMse, m.maxAbs, 100 * m.drift);
+}
+
+void printTable(const Image& image, const Figures& figures, const Parts& parts, const DiffOptions& options) {
     const Metrics& m = figures.metrics;
     fmt::print("{} against {}: {}x{}, {}\n", options.image, options.reference, image.width(), image.height(),
                fmt::join(image.channels, " "));
@@ -97,6 +148,9 @@ void printTable(const Image& image, const Figures& figures, const DiffOptions& o
             fmt::print("{} {} {:+.3f} %", c ? "," : ":", image.channels[c], 100 * m.channelDrift[c]);
         fmt::print("\n");
     }
+    for (const Layer& layer : parts.layers) printLayer(layer);
+    if (!parts.unpaired.empty())
+        fmt::print("  not in both      {}\n", oneLine(fmt::to_string(fmt::join(parts.unpaired, " "))));
     if (!options.heatMap.empty())
         fmt::print("  heat map         {}: 0 to {:.6g}\n", options.heatMap, heatScale(m));
 }
@@ -110,7 +164,7 @@ nlohmann::ordered_json placeJson(const ValuePlace& place, const Image& image, fl
 }
 
 /// JSON has no NaN and no infinity: these become null.
-void printJson(const Image& image, const Figures& figures, const DiffOptions& options,
+void printJson(const Image& image, const Figures& figures, const Parts& parts, const DiffOptions& options,
                const std::vector<std::string>& outOfBounds) {
     const Metrics& m = figures.metrics;
     nlohmann::ordered_json json = {{"image", options.image},
@@ -131,6 +185,13 @@ void printJson(const Image& image, const Figures& figures, const DiffOptions& op
                                    {"outOfBounds", outOfBounds}};
     for (std::size_t c = 0; c < m.channelDrift.size(); ++c)
         json["channelDrift"][image.channels[c]] = m.channelDrift[c];
+    json["layers"] = nlohmann::ordered_json::object();
+    for (const Layer& layer : parts.layers)
+        json["layers"][layer.name] = {
+            {"channels", layer.channels},     {"mse", layer.metrics.mse},
+            {"relMse", layer.metrics.relMse}, {"maxAbs", layer.metrics.maxAbs},
+            {"drift", layer.metrics.drift},   {"nonFinite", layer.metrics.nonFinite}};
+    json["notInBoth"] = parts.unpaired;
     if (m.nonFinite > 0)
         json["firstNonFinite"] = placeJson(m.nonFinitePlace, image, m.nonFiniteValue, m.nonFiniteReference);
     else
@@ -141,7 +202,12 @@ void printJson(const Image& image, const Figures& figures, const DiffOptions& op
 
 void runDiff(const DiffOptions& options) {
     if (!options.heatMap.empty()) checkWritable(options.heatMap);
-    const Image image = readLinear(options.image), reference = readLinear(options.reference);
+    const Image first = readLinear(options.image), second = readLinear(options.reference);
+    Parts parts = partsOf(first, second);
+    const auto coloursOf = [&](const Image& all) {
+        return parts.colours.empty() ? all : all.withChannels(parts.colours);
+    };
+    const Image image = coloursOf(first), reference = coloursOf(second);
     const Figures figures = [&]() -> Figures {
         try {
             return {compare(image, reference),
@@ -150,13 +216,15 @@ void runDiff(const DiffOptions& options) {
             throw Error(error.code(), {options.image + " against " + options.reference}, error.what());
         }
     }();
+    for (Layer& layer : parts.layers)
+        layer.metrics = compare(first.withChannels(layer.channels), second.withChannels(layer.channels));
     if (!options.heatMap.empty())
         writePng(options.heatMap, heatMap(image, reference, heatScale(figures.metrics)));
-    const std::vector<std::string> outOfBounds = violations(figures, options);
+    const std::vector<std::string> outOfBounds = violations(figures, parts, options);
     if (options.json)
-        printJson(image, figures, options, outOfBounds);
+        printJson(image, figures, parts, options, outOfBounds);
     else
-        printTable(image, figures, options);
+        printTable(image, figures, parts, options);
     if (!outOfBounds.empty())
         throw Error(ErrorCode::outOfBounds, fmt::format("out of bounds: {}", fmt::join(outOfBounds, "; ")));
 }

@@ -26,4 +26,14 @@ int Image::channel(const std::string& name) const {
     return found == channels.end() ? -1 : int(found - channels.begin());
 }
 
+Image Image::withChannels(std::vector<std::string> names) const {
+    Image part(dataWindow, std::move(names));
+    part.displayWindow = displayWindow;
+    std::vector<std::size_t> sources;
+    for (const std::string& name : part.channels) sources.push_back(std::size_t(channel(name)));
+    for (std::size_t i = 0; i < part.pixels.size(); ++i)
+        part.pixels[i] = pixels[i / sources.size() * channels.size() + sources[i % sources.size()]];
+    return part;
+}
+
 } // namespace slant

@@ -97,6 +97,41 @@ TEST_F(Diff, exposureIsThatOfTheFlipPictures) {
     EXPECT_THAT(diff({"--exposure", "-1.5", other_, reference_}, 0).out, HasSubstr(" at -1.5 stops"));
 }
 
+TEST_F(Diff, figuresAreOfColoursAndLayersApart) {
+    Image image({0, 0, 5, 4}, {"R", "G", "B", "A", "Z", "N.X", "N.Y"}), plain = Image::rgb(5, 4);
+    Image reference({0, 0, 5, 4}, {"R", "G", "B", "A", "Z", "albedo.R"});
+    for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 5; ++x) {
+            reference.at(x, y, 4) = 100;
+            image.at(x, y, 4) = 103;
+        }
+    image.at(2, 1, 0) = 0.5f;
+    image.at(3, 1, 6) = 7;
+    const std::string a = dir_.file("a.exr"), b = dir_.file("b.exr"), c = dir_.file("c.exr");
+    writeExr(a, image);
+    writeExr(b, reference);
+    writeExr(c, plain);
+    const ProgramResult result = diff({a, b, "--max-mse", "0.0042"}, 0);
+    EXPECT_THAT(result.out, HasSubstr("5x4, R G B\n"));
+    EXPECT_THAT(result.out, HasSubstr("  MSE              0.00416667\n"));
+    EXPECT_THAT(result.out,
+                HasSubstr("  A                MSE 0, relMSE 0, maximum error 0, mean drift +0.000 %\n"));
+    EXPECT_THAT(result.out, HasSubstr("  Z                MSE 9, relMSE 0.000899999, maximum error 3, "
+                                      "mean drift +3.000 %\n"));
+    EXPECT_THAT(result.out, HasSubstr("  not in both      N.X N.Y albedo.R\n"));
+    EXPECT_THAT(diff({a, c}, 0).out, HasSubstr("  not in both      A Z N.X N.Y\n"));
+
+    const auto json = nlohmann::json::parse(diff({"--json", a, a}, 0).out);
+    EXPECT_EQ(json["layers"].size(), 3);
+    EXPECT_EQ(json["layers"]["N"]["channels"], (std::vector<std::string>{"N.X", "N.Y"}));
+    EXPECT_EQ(json["layers"]["N"]["maxAbs"], 0.0);
+    EXPECT_TRUE(json["notInBoth"].empty());
+    image.at(0, 0, 4) = kNaN;
+    writeExr(a, image);
+    EXPECT_THAT(diff({a, b}, 1).err, HasSubstr("1 values of Z are NaN or infinite"));
+    EXPECT_THAT(diff({a, b}, 1).out, HasSubstr("  Z                1 non-finite\n"));
+}
+
 TEST_F(Diff, nonFiniteFailsWithoutAnyBound) {
     EXPECT_THAT(diff({broken_, reference_}, 1).out, HasSubstr("non-finite       1, first at (1, 0) B: nan"));
     diff({reference_, broken_}, 1);
