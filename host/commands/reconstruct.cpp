@@ -39,7 +39,10 @@ class Job {
 public:
     Job(const FromFileOptions& options, TerminalMonitor& monitor)
         : options_(options), backend_(options.picture.common.device, options.picture.common.threads),
-          file_(readFieldFor(options.picture.input, monitor)), distances_(focusDistances(options.focus)) {
+          file_(readFieldFor(options.picture.input, monitor)), traced_(file_.field.slopeModel) {
+        for (const std::optional<double>& distance : focusDistances(options.focus))
+            focuses_.push_back({distance, distance ? focusedAt(file_.field, *distance) : traced_});
+        defects_ = sanitize(file_.field);
         CommonOptions& common = options_.picture.common;
         common.seed = options_.seed.value_or(file_.details.seed);
         reconstruction_ = reconstructOptions(common, file_.details.filter.value_or(PixelFilter()), backend_);
@@ -49,6 +52,7 @@ public:
         if (!file_.field.lensMap.empty() && (reconstruction_.lensScale != 1 || reconstruction_.aperture))
             throw Error(ErrorCode::usage, "the field is not that of a thin lens: what another aperture would "
                                           "make of its pupils is not known");
+        reconstruction_.anyFocus = options_.focus.refocuses();
         checkBudget(file_.field.frame, int(sampleCounts(file_.field).most), reconstruction_);
         const double outside = shareOutside(apertureOf(file_.field, reconstruction_),
                                             reconstruction_.lensScale, file_.field.aperture);
@@ -60,14 +64,15 @@ public:
     }
 
     void run(TerminalMonitor& monitor, const Stopwatch& watch) {
-        if (distances_.size() == 1) return single(monitor, watch);
+        FieldPictures pictures(backend_, file_.field, reconstruction_, options_.compareWithCpu);
+        if (focuses_.size() == 1) return single(pictures, monitor, watch);
         const std::size_t passes =
             1 + (options_.picture.auxiliary ? auxiliarySets(!file_.field.auxiliary.empty()).size() : 0);
         const std::uint64_t share =
             passes * file_.field.frame.area() * std::uint64_t(reconstruction_.outputsPerPixel);
-        monitor.beginStage("focus pull", distances_.size() * share, "outputs");
+        monitor.beginStage("focus pull", focuses_.size() * share, "outputs");
         WorkMonitor frames(monitor);
-        for (std::size_t i = 0; i < distances_.size(); ++i) {
+        for (std::size_t i = 0; i < focuses_.size(); ++i) {
             frames.beginShare(share, "");
             const Stopwatch frameWatch;
             PictureOptions picture = options_.picture;
@@ -75,53 +80,54 @@ public:
             picture.png = numbered(picture.png, i + 1);
             picture.common.statsPath.clear();
             ReconstructReport report;
-            const Image image = make(distances_[i], frames, report);
+            const Image image = make(pictures, focuses_[i], frames, report);
             writeDebugImage(picture, file_.field.frame, report);
-            writeOutputs(picture, image, details(distances_[i], report), report.stages, frameWatch.seconds());
+            writeOutputs(picture, image, details(focuses_[i], report), report.stages, frameWatch.seconds());
         }
         frames.endShare();
         monitor.endStage();
         if (const std::string& path = options_.picture.common.statsPath; !path.empty())
             writeStats(path, monitor.stages(), watch.seconds(),
-                       {{"field", options_.picture.input}, {"frames", distances_.size()}});
+                       {{"field", options_.picture.input}, {"frames", focuses_.size()}});
     }
 
 private:
-    void single(TerminalMonitor& monitor, const Stopwatch& watch) {
+    /// Of one picture.
+    struct Focus {
+        std::optional<double> distance; ///< unset: as traced
+        SlopeModel model;
+    };
+
+    void single(FieldPictures& pictures, TerminalMonitor& monitor, const Stopwatch& watch) {
         ReconstructReport report;
-        const Image image = make(distances_[0], monitor, report);
+        const Image image = make(pictures, focuses_[0], monitor, report);
         writeDebugImage(options_.picture, file_.field.frame, report);
-        writeOutputs(options_.picture, image, details(distances_[0], report),
+        writeOutputs(options_.picture, image, details(focuses_[0], report),
                      stagesOf(monitor.stages(), report), watch.seconds());
     }
 
-    Image make(std::optional<double> distance, Monitor& monitor, ReconstructReport& report) {
-        LightField other;
-        if (distance) other = refocused(file_.field, *distance);
-        LightField& field = distance ? other : file_.field;
-        const FieldDefects defects = sanitize(field);
-        if (distance || reconstruction_.lensScale > 1)
-            if (const int missing = missingOverscanPx(field, reconstruction_.lensScale); missing > 0)
+    Image make(FieldPictures& pictures, const Focus& focus, Monitor& monitor, ReconstructReport& report) {
+        const float shift = focus.model.c2 - traced_.c2;
+        if (focus.distance || reconstruction_.lensScale > 1)
+            if (const int missing = missingOverscanPx(file_.field, shift, reconstruction_.lensScale);
+                missing > 0)
                 monitor.warn(
                     fmt::format("blur reaches {} pixels beyond the samples: borders may lack what enters "
                                 "from farther out",
                                 missing));
-        slopeModel_ = field.slopeModel;
-        Image image = reconstruct(backend_, field, reconstruction_, options_.compareWithCpu, monitor, report);
-        if (options_.picture.auxiliary)
-            reconstructAuxiliary(image, backend_, field, reconstruction_, options_.compareWithCpu, monitor,
-                                 report);
+        Image image = pictures.colours(shift, monitor, report);
+        if (options_.picture.auxiliary) pictures.addAuxiliary(image, shift, monitor, report);
         image.displayWindow = file_.details.film;
-        warnOf(defects, report.emptyPixels, monitor);
+        warnOf(defects_, report.emptyPixels, monitor);
         return image;
     }
 
-    nlohmann::ordered_json details(std::optional<double> distance, const ReconstructReport& report) const {
+    nlohmann::ordered_json details(const Focus& focus, const ReconstructReport& report) const {
         nlohmann::ordered_json json = {{"field", options_.picture.input}, {"scene", file_.details.source}};
         addDetails(json, options_.picture.common, file_.field, backend_, report);
-        json["c1"] = slopeModel_.c1;
-        json["c2"] = slopeModel_.c2;
-        if (distance) json["focusDistance"] = *distance;
+        json["c1"] = focus.model.c1;
+        json["c2"] = focus.model.c2;
+        if (focus.distance) json["focusDistance"] = *focus.distance;
         if (reconstruction_.lensScale != 1) json["apertureScale"] = reconstruction_.lensScale;
         if (reconstruction_.aperture) json["aperture"] = reconstruction_.aperture->shape().name;
         return json;
@@ -130,9 +136,10 @@ private:
     FromFileOptions options_;
     Backend backend_;
     FieldFile file_;
-    std::vector<std::optional<double>> distances_;
+    SlopeModel traced_;
+    std::vector<Focus> focuses_; ///< of each picture
+    FieldDefects defects_;
     ReconstructOptions reconstruction_;
-    SlopeModel slopeModel_; ///< of the last picture
 };
 
 void runReconstruct(const FromFileOptions& options) {

@@ -23,31 +23,6 @@ std::string describe(const StageDifference& d, const std::vector<uint>& expected
         d.got[i], std::bit_cast<float>(d.got[i]));
 }
 
-/// Runs the CPU beside the backend; Error(outOfBounds) at the first stage that differs.
-Image reconstructAndCompare(Backend& backend, const LightField& field, const ReconstructOptions& options,
-                            Monitor& monitor, ReconstructReport& report) {
-    CpuReconstructor cpu;
-    ReconstructReport cpuReport;
-    StageRecorder expected;
-    cpu.reconstruct(field, options, monitor, cpuReport, &expected);
-    StageComparer comparer(expected);
-    Image image = backend.reconstructor->reconstruct(field, options, monitor, report, &comparer);
-    if (const auto difference = comparer.difference()) {
-        StageReader reader(difference->stage, difference->firstWord, difference->got.size());
-        if (!difference->got.empty()) cpu.reconstruct(field, options, monitor, cpuReport, &reader);
-        throw Error(ErrorCode::outOfBounds, describe(*difference, reader.words()));
-    }
-    fmt::print(
-        "{} stages, {} words: {} and cpu agree to the bit\n", expected.stages().size(),
-        [&] {
-            std::size_t words = 0;
-            for (const auto& stage : expected.stages()) words += stage.words;
-            return words;
-        }(),
-        backend.name);
-    return image;
-}
-
 /// Samples a pixel: on average, where pixels differ.
 nlohmann::ordered_json sppOf(const LightField& field) {
     if (field.pixelStart.empty()) return field.samplesPerPixel;
@@ -83,26 +58,64 @@ ReconstructOptions reconstructOptions(const CommonOptions& common, const PixelFi
     return options;
 }
 
-Image reconstruct(Backend& backend, const LightField& field, const ReconstructOptions& options,
-                  bool compareWithCpu, Monitor& monitor, ReconstructReport& report) {
-    return compareWithCpu ? reconstructAndCompare(backend, field, options, monitor, report)
-                          : backend.reconstructor->reconstruct(field, options, monitor, report, nullptr);
+FieldPictures::FieldPictures(Backend& backend, LightField& field, const ReconstructOptions& options,
+                             bool compareWithCpu)
+    : backend_(backend), field_(field), prepared_(backend.reconstructor->prepare(field, options)) {
+    if (compareWithCpu) onCpu_ = CpuReconstructor().prepare(field, options);
 }
 
-void reconstructAuxiliary(Image& image, Backend& backend, LightField& field,
-                          const ReconstructOptions& options, bool compareWithCpu, Monitor& monitor,
-                          ReconstructReport& report) {
-    if (field.auxiliary.empty())
+Image FieldPictures::colours(float slopeShift, Monitor& monitor, ReconstructReport& report) {
+    if (!colours_.empty()) {
+        putRadiances(field_, colours_);
+        colours_.clear();
+        takeRadiances();
+    }
+    return picture(slopeShift, monitor, report);
+}
+
+void FieldPictures::addAuxiliary(Image& image, float slopeShift, Monitor& monitor,
+                                 ReconstructReport& report) {
+    if (field_.auxiliary.empty())
         monitor.warn("the samples have neither albedo nor normals: A and Z alone are written");
+    if (colours_.empty()) colours_ = radiancesOf(field_);
     ReconstructReport ofSets;
     const Stopwatch watch;
-    for (const AuxiliarySet& set : auxiliarySets(!field.auxiliary.empty())) {
-        takeValues(field, set);
-        addChannels(image, set, reconstruct(backend, field, options, compareWithCpu, monitor, ofSets));
+    for (const AuxiliarySet& set : auxiliarySets(!field_.auxiliary.empty())) {
+        takeValues(field_, set);
+        takeRadiances();
+        addChannels(image, set, picture(slopeShift, monitor, ofSets));
     }
     StageStats& stage = report.stage("auxiliary", "outputs");
     stage.seconds = watch.seconds();
     stage.items = ofSets.outputs;
+}
+
+void FieldPictures::takeRadiances() {
+    prepared_->takeRadiances();
+    if (onCpu_) onCpu_->takeRadiances();
+}
+
+Image FieldPictures::picture(float slopeShift, Monitor& monitor, ReconstructReport& report) {
+    return onCpu_ ? pictureAndCompare(slopeShift, monitor, report)
+                  : prepared_->picture(slopeShift, monitor, report, nullptr);
+}
+
+Image FieldPictures::pictureAndCompare(float slopeShift, Monitor& monitor, ReconstructReport& report) {
+    ReconstructReport cpuReport;
+    StageRecorder expected;
+    onCpu_->picture(slopeShift, monitor, cpuReport, &expected);
+    StageComparer comparer(expected);
+    Image image = prepared_->picture(slopeShift, monitor, report, &comparer);
+    if (const auto difference = comparer.difference()) {
+        StageReader reader(difference->stage, difference->firstWord, difference->got.size());
+        if (!difference->got.empty()) onCpu_->picture(slopeShift, monitor, cpuReport, &reader);
+        throw Error(ErrorCode::outOfBounds, describe(*difference, reader.words()));
+    }
+    std::size_t words = 0;
+    for (const auto& stage : expected.stages()) words += stage.words;
+    fmt::print("{} stages, {} words: {} and cpu agree to the bit\n", expected.stages().size(), words,
+               backend_.name);
+    return image;
 }
 
 void addDetails(nlohmann::ordered_json& details, const CommonOptions& common, const LightField& field,

@@ -38,9 +38,9 @@ void runRender(RenderOptions options) {
     const FieldDefects defects = sanitize(field);
 
     ReconstructReport report;
-    Image image = reconstruct(backend, field, reconstruction, options.compareWithCpu, monitor, report);
-    if (options.picture.auxiliary)
-        reconstructAuxiliary(image, backend, field, reconstruction, options.compareWithCpu, monitor, report);
+    FieldPictures pictures(backend, field, reconstruction, options.compareWithCpu);
+    Image image = pictures.colours(0, monitor, report);
+    if (options.picture.auxiliary) pictures.addAuxiliary(image, 0, monitor, report);
     image.displayWindow = {0, 0, scene.film.xResolution, scene.film.yResolution};
     warnOf(defects, report.emptyPixels, monitor);
     nlohmann::ordered_json details = {{"scene", options.picture.input}};

@@ -53,15 +53,15 @@ void BinPasses::place(CommandList& commands, const LightField& field, BinPush pu
     }
 }
 
-DeviceBins BinPasses::run(CommandList& commands, const LightField& field, const Rect& region) {
+DeviceBins BinPasses::run(CommandList& commands, const LightField& field, const BinScope& scope) {
     const SampleDensity density = densityOf(field);
     BinPush push{};
-    push.grid = chooseGrid(field, density, region);
+    push.grid = chooseGrid(field, density, scope);
     push.occlusion = chooseOcclusion(push.grid, density);
     push.density = density.layout;
-    push.regionMin = ivec2(region.x0, region.y0);
-    push.regionMax = ivec2(region.x1, region.y1);
-    push.marginPx = widestSearchPx(density);
+    push.regionMin = ivec2(scope.region.x0, scope.region.y0);
+    push.regionMax = ivec2(scope.region.x1, scope.region.y1);
+    push.marginPx = marginPx(scope, density);
 
     Placed placed(device_, field.samples.size(), stoppedBlocks(push.occlusion), density);
     commands.fill(placed.stopped, 0);
@@ -75,8 +75,9 @@ DeviceBins BinPasses::run(CommandList& commands, const LightField& field, const 
     PairBuffers scratch(device_, field.samples.size());
     const RadixSort sort(device_, field.samples.size());
     // One key more than there are cells: kNotBinned sorts behind them all.
-    const PairBuffers& sorted =
-        sort.record(commands, placed.pairs, scratch, field.samples.size(), std::bit_width(keyCount));
+    const bool inScratch = &sort.record(commands, placed.pairs, scratch, field.samples.size(),
+                                        std::bit_width(keyCount)) == &scratch;
+    PairBuffers& sorted = inScratch ? scratch : placed.pairs;
 
     Buffer positions(device_, TexelFormat::rgba32f, kept), radiances(device_, TexelFormat::rgba32f, kept);
     Buffer brickOfRecord(device_, TexelFormat::r32ui, kept + 1);
@@ -110,7 +111,8 @@ DeviceBins BinPasses::run(CommandList& commands, const LightField& field, const 
             std::move(radiances),
             std::move(cellStart),
             std::move(bricks),
-            std::move(cellBases)};
+            std::move(cellBases),
+            std::move(sorted.values)};
 }
 
 } // namespace slant

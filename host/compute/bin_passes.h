@@ -1,8 +1,7 @@
 // Stage "bin" on the device: the same words as binSamples (reconstruct/bins.h).
 #pragma once
 #include "compute/radix_sort.h"
-#include "lightfield/lightfield.h"
-#include "shared/reconstruct.h"
+#include "reconstruct/grid.h"
 
 namespace slant {
 
@@ -13,6 +12,7 @@ struct DeviceBins {
     Buffer cellStart;            ///< brickTotal * cells of a brick + 1
     Buffer bricks;
     Buffer cellBases; ///< see bin_bricks.comp
+    Buffer samples;   ///< index in the field of each record, and of what was not binned
 };
 
 class BinPasses {
@@ -20,7 +20,7 @@ public:
     explicit BinPasses(Device& device);
 
     /// Runs on `commands`, which must be empty, and leaves it empty.
-    DeviceBins run(CommandList& commands, const LightField& field, const Rect& region);
+    DeviceBins run(CommandList& commands, const LightField& field, const BinScope& scope);
 
 private:
     /// What bin_place makes of the samples, in sample order, and bin_occlude.

@@ -1,18 +1,27 @@
 // The methods on the device, a row of peers: each fills the film of a run, stage by stage as its namesake of
 // reconstruct/cpu_methods.h does.
 #pragma once
-#include "compute/bin_passes.h"
 #include "compute/film_pass.h"
+#include "compute/focused_bins.h"
+#include "reconstruct/focused_bins.h"
 
 #include <algorithm>
 
 namespace slant {
 
-/// One reconstruction on the device: what every method is given.
+/// Bins of a field; unset until a method asks for them.
+struct ComputeBins {
+    std::optional<DeviceFocusedBins> onDevice;
+    std::optional<FocusedBins> onCpu; ///< for what a shader cannot loop over
+};
+
+/// One picture on the device: what every method is given.
 struct ComputeRun {
     Device& device;
     const LightField& field;
     const ReconstructOptions& options;
+    ComputeBins& prepared;
+    float slopeShift; ///< see PreparedField
     Monitor& monitor;
     ReconstructReport& report;
     StageObserver* observer; ///< may be null
@@ -25,8 +34,12 @@ struct ComputeRun {
     /// Words of a buffer's first texels for the observer.
     void observe(const char* name, const Buffer& buffer, std::uint64_t texels) const;
     void observe(const char* name, const Buffer& buffer) const { observe(name, buffer, buffer.texels()); }
-    /// Stage "bin", timed and observed.
-    DeviceBins bin();
+    /// Stages "bin", unless it is done, and "refocus", timed; observed.
+    const DeviceBins& bins();
+    const Bins& binsOnCpu();
+
+private:
+    BinScope binScope() const;
 };
 
 using ComputeMethod = void(ComputeRun& run);

@@ -13,6 +13,51 @@ namespace {
 constexpr std::array<ComputeMethod*, kMethodCount> kMethods = {boxMethod, windowMethod, fullMethod,
                                                                fullMethod};
 
+class ComputePreparedField final : public PreparedField {
+public:
+    ComputePreparedField(Device& device, const LightField& field, const ReconstructOptions& options)
+        : device_(device), field_(field), options_(options) {
+        if (throughLens()) scenic_ = onSceneSide(field_);
+    }
+
+    Image picture(float slopeShift, Monitor& monitor, ReconstructReport& report,
+                  StageObserver* observer) override {
+        checkFocus(options_, slopeShift);
+        device_.resetPeakBytes();
+        ComputeRun run{device_, seen(), options_, bins_, slopeShift, monitor, report, observer};
+        kMethods.at(std::size_t(options_.method))(run);
+        run.filmPass.download(run.film);
+        if (observer)
+            observer->stage(
+                "film", {reinterpret_cast<const uint*>(run.film.sums().data()), 4 * run.film.sums().size()});
+        for (const PassTime& time : run.commands.passTimes()) {
+            StageStats& stage = report.stage(("pass " + time.name).c_str(), "dispatches");
+            stage.deviceSeconds = time.seconds;
+            stage.items = time.dispatches;
+        }
+        return run.film.toImage(report.emptyPixels);
+    }
+
+    void takeRadiances() override {
+        if (throughLens()) scenic_ = onSceneSide(field_);
+        if (bins_.onDevice) {
+            CommandList commands(device_);
+            bins_.onDevice->takeRadiances(commands, seen());
+        }
+        if (bins_.onCpu) bins_.onCpu->takeRadiances(seen());
+    }
+
+private:
+    bool throughLens() const { return usesOutputs(options_.method) && !field_.lensMap.empty(); }
+    const LightField& seen() const { return throughLens() ? scenic_ : field_; }
+
+    Device& device_;
+    const LightField& field_;
+    ReconstructOptions options_;
+    LightField scenic_; ///< empty but through a lens
+    ComputeBins bins_;
+};
+
 } // namespace
 
 void ComputeRun::observe(const char* name, const Buffer& buffer, std::uint64_t texels) const {
@@ -22,11 +67,22 @@ void ComputeRun::observe(const char* name, const Buffer& buffer, std::uint64_t t
     observer->stage(name, words);
 }
 
-DeviceBins ComputeRun::bin() {
-    StageTimer timer(report, "bin", "samples");
-    timer.items = field.samples.size();
-    DeviceBins bins = BinPasses(device).run(commands, field, searchRegionOf(field, film.filter()));
-    timer.bytes = device.peakBytes();
+BinScope ComputeRun::binScope() const {
+    return {searchRegionOf(field, film.filter()), options.anyFocus};
+}
+
+const DeviceBins& ComputeRun::bins() {
+    if (!prepared.onDevice) {
+        StageTimer timer(report, "bin", "samples");
+        timer.items = field.samples.size();
+        prepared.onDevice.emplace(device, commands, field, binScope());
+        timer.bytes = device.peakBytes();
+    }
+    const DeviceBins& bins = [&]() -> const DeviceBins& {
+        StageTimer timer(report, "refocus", "samples");
+        timer.items = slopeShift != 0 ? field.samples.size() : 0;
+        return prepared.onDevice->at(commands, slopeShift);
+    }();
     observe("bin.bricks", bins.bricks);
     observe("bin.cells", bins.cellStart);
     observe("bin.positions", bins.positions);
@@ -34,28 +90,14 @@ DeviceBins ComputeRun::bin() {
     return bins;
 }
 
-ComputeReconstructor::ComputeReconstructor(Device& device) : device_(device) {}
-ComputeReconstructor::~ComputeReconstructor() = default;
+const Bins& ComputeRun::binsOnCpu() {
+    if (!prepared.onCpu) prepared.onCpu.emplace(field, binScope());
+    return prepared.onCpu->at(slopeShift);
+}
 
-Image ComputeReconstructor::reconstruct(const LightField& field, const ReconstructOptions& options,
-                                        Monitor& monitor, ReconstructReport& report,
-                                        StageObserver* observer) {
-    device_.resetPeakBytes();
-    LightField scenic;
-    const bool throughLens = usesOutputs(options.method) && !field.lensMap.empty();
-    if (throughLens) scenic = onSceneSide(field);
-    ComputeRun run{device_, throughLens ? scenic : field, options, monitor, report, observer};
-    kMethods.at(std::size_t(options.method))(run);
-    run.filmPass.download(run.film);
-    if (observer)
-        observer->stage("film",
-                        {reinterpret_cast<const uint*>(run.film.sums().data()), 4 * run.film.sums().size()});
-    for (const PassTime& time : run.commands.passTimes()) {
-        StageStats& stage = report.stage(("pass " + time.name).c_str(), "dispatches");
-        stage.deviceSeconds = time.seconds;
-        stage.items = time.dispatches;
-    }
-    return run.film.toImage(report.emptyPixels);
+std::unique_ptr<PreparedField> ComputeReconstructor::prepare(const LightField& field,
+                                                             const ReconstructOptions& options) {
+    return std::make_unique<ComputePreparedField>(device_, field, options);
 }
 
 } // namespace slant

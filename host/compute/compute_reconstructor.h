@@ -3,18 +3,15 @@
 #include "compute/device.h"
 #include "reconstruct/method.h"
 
-#include <memory>
-
 namespace slant {
 
 class ComputeReconstructor final : public Reconstructor {
 public:
-    /// `device` must outlive it.
-    explicit ComputeReconstructor(Device& device);
-    ~ComputeReconstructor() override;
+    /// `device` must outlive it and the fields that it prepares.
+    explicit ComputeReconstructor(Device& device) : device_(device) {}
 
-    Image reconstruct(const LightField& field, const ReconstructOptions& options, Monitor& monitor,
-                      ReconstructReport& report, StageObserver* observer) override;
+    std::unique_ptr<PreparedField> prepare(const LightField& field,
+                                           const ReconstructOptions& options) override;
 
 private:
     Device& device_;

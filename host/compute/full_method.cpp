@@ -17,7 +17,7 @@ namespace {
 class FullMethod {
 public:
     explicit FullMethod(ComputeRun& run)
-        : run_(run), bins_(run.bin()),
+        : run_(run), bins_(run.bins()),
           pattern_(makeOutputPattern(run.options.outputsPerPixel, largestSlope(bins_.grid),
                                      run.options.lensScale, apertureOf(run.field, run.options))),
           listPasses_(run.device, pattern_, run.field.lensMap),
@@ -62,7 +62,7 @@ private:
     void makeMap(const MapLayout& layout) {
         StageTimer timer(run_.report, "layer_map", "texels");
         layerPasses_->makeMap(run_.commands, bins_, layout, [&](ivec2 texel) {
-            const Bins& bins = cpuBins();
+            const Bins& bins = run_.binsOnCpu();
             std::vector<uint> bricks(bins.bricks.size());
             std::iota(bricks.begin(), bricks.end(), 0u);
             return resolveTexel({bins, bricks}, layout, texel);
@@ -150,25 +150,19 @@ private:
     /// The outputs with more candidates than a shader may loop over.
     void finishOnCpu(const Band& band, const OutputPush& push, const std::vector<uint>& indices,
                      Buffer& dense) {
-        CpuChunk cpu(cpuBins(), nullptr, run_.field.lensMap, pattern_, band, run_.options.seed,
+        CpuChunk cpu(run_.binsOnCpu(), nullptr, run_.field.lensMap, pattern_, band, run_.options.seed,
                      push.firstGroup, push.groupCount);
         cpu.redo(indices, run_.report);
         for (const uint index : indices)
             dense.upload(std::span<const vec4>(&cpu.dense.samples[index], 1), index);
     }
 
-    const Bins& cpuBins() {
-        if (!cpuBins_) cpuBins_ = binSamples(run_.field, searchRegionOf(run_.field, run_.film.filter()));
-        return *cpuBins_;
-    }
-
     ComputeRun& run_;
-    DeviceBins bins_;
+    const DeviceBins& bins_;
     OutputPattern pattern_;
     ListPasses listPasses_;
     OutputPasses outputPasses_;
     std::optional<LayerPasses> layerPasses_;
-    std::optional<Bins> cpuBins_;
 };
 
 } // namespace

@@ -14,7 +14,7 @@ std::optional<double> focusDistance(const SlopeModel& model) {
     return -double(model.c1) / double(model.c2);
 }
 
-LightField refocused(LightField field, double distance) {
+SlopeModel focusedAt(const LightField& field, double distance) {
     if (!(distance > 0))
         throw Error(ErrorCode::usage, fmt::format("a focus distance of {} is not positive", distance));
     if (field.slopeModel.c1 == 0)
@@ -25,20 +25,12 @@ LightField refocused(LightField field, double distance) {
                     "what another focus would make of them is not known");
     SlopeModel model = field.slopeModel;
     model.c2 = float(-double(model.c1) / distance);
-    const float change = model.c2 - field.slopeModel.c2;
-    field.slopeModel = model;
-    parallelFor(0, field.samples.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            LightFieldSample& s = field.samples[i];
-            s.x += change * s.u;
-            s.y += change * s.v;
-            s.slope = model(s.w);
-        }
-    });
-    return field;
+    if (!std::isfinite(model.c2))
+        throw Error(ErrorCode::usage, fmt::format("with the focus at {} blur is infinite", distance));
+    return model;
 }
 
-int missingOverscanPx(const LightField& field, float lensScale) {
+int missingOverscanPx(const LightField& field, float slopeShift, float lensScale) {
     const Rect &frame = field.frame, &bounds = field.bounds;
     const auto width = std::size_t(bounds.width());
     float missing = 0;
@@ -49,7 +41,7 @@ int missingOverscanPx(const LightField& field, float lensScale) {
             float here = 0;
             for (std::size_t i = field.firstSample(first * width); i < field.firstSample(last * width); ++i) {
                 const LightFieldSample& s = field.samples[i];
-                const float radius = std::abs(s.slope) * lensScale;
+                const float radius = std::abs(s.slope + slopeShift) * lensScale;
                 const glm::vec2 p = glm::vec2(s.x, s.y) - s.slope * glm::vec2(s.u, s.v);
                 if (!std::isfinite(radius) || !std::isfinite(p.x + p.y)) continue;
                 // A point of the frame that is spread so far has neighbours spread as far.

@@ -58,6 +58,20 @@ void takeValues(LightField& field, const AuxiliarySet& set) {
     });
 }
 
+std::vector<glm::vec3> radiancesOf(const LightField& field) {
+    std::vector<glm::vec3> radiances;
+    radiances.reserve(field.samples.size());
+    for (const LightFieldSample& s : field.samples) radiances.emplace_back(s.r, s.g, s.b);
+    return radiances;
+}
+
+void putRadiances(LightField& field, std::span<const glm::vec3> radiances) {
+    for (std::size_t i = 0; i < radiances.size(); ++i) {
+        LightFieldSample& s = field.samples[i];
+        s.r = radiances[i].x, s.g = radiances[i].y, s.b = radiances[i].z;
+    }
+}
+
 void addChannels(Image& image, const AuxiliarySet& set, const Image& means) {
     std::vector<std::string> channels = image.channels;
     channels.insert(channels.end(), set.channels.begin(), set.channels.end());

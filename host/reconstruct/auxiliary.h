@@ -29,6 +29,10 @@ std::span<const AuxiliarySet> auxiliarySets(bool withAlbedoAndNormals);
 /// for normals that are not.
 void takeValues(LightField& field, const AuxiliarySet& set);
 
+/// The radiances of the samples, to be put back after other values were in their place.
+std::vector<glm::vec3> radiancesOf(const LightField& field);
+void putRadiances(LightField& field, std::span<const glm::vec3> radiances);
+
 /// Adds the channels of a set to a picture, from `means`, R, G, B of the same pixels.
 void addChannels(Image& image, const AuxiliarySet& set, const Image& means);
 

@@ -71,12 +71,12 @@ struct BrickBounds {
 
 } // namespace
 
-Bins binSamples(const LightField& field, const Rect& region) {
+Bins binSamples(const LightField& field, const BinScope& scope) {
     const SampleDensity density = densityOf(field);
     Bins bins;
-    bins.grid = chooseGrid(field, density, region);
+    bins.grid = chooseGrid(field, density, scope);
     const uint cellsPerBrick = uint(bins.grid.cellsPerBrick) * uint(bins.grid.cellsPerBrick);
-    const Order order = sortedSamples(field, region, widestSearchPx(density), bins.grid);
+    Order order = sortedSamples(field, scope.region, marginPx(scope, density), bins.grid);
     const std::size_t count = order.keys.size();
 
     const OcclusionLayout occlusion = chooseOcclusion(bins.grid, density);
@@ -103,6 +103,7 @@ Bins binSamples(const LightField& field, const Rect& region) {
     }
     for (const BrickBounds& bounds : bricks) bins.bricks.push_back(bounds.brick(bins.grid));
     bins.cellStart.resize(bins.bricks.size() * cellsPerBrick + 1, uint(count));
+    bins.samples = std::move(order.samples);
     return bins;
 }
 

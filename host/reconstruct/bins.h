@@ -24,9 +24,9 @@ struct Bins {
     std::vector<vec4> positions; ///< records in cell order, in sample order within a cell: p.x, p.y, slope,
                                  ///< visibilityWeight
     std::vector<vec4> radiances; ///< r, g, b, narrowingAt
+    std::vector<uint> samples;   ///< of each record: its index in the field
 };
 
-/// Bins the samples that reach `region` (see chooseGrid).
-Bins binSamples(const LightField& field, const Rect& region);
+Bins binSamples(const LightField& field, const BinScope& scope);
 
 } // namespace slant

@@ -1,18 +1,21 @@
 // The methods on the CPU, a row of peers: each fills the film of a run, and nothing else.
 #pragma once
-#include "reconstruct/bins.h"
 #include "reconstruct/film_buffer.h"
+#include "reconstruct/focused_bins.h"
 #include "reconstruct/method.h"
 
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace slant {
 
-/// One reconstruction on the CPU: what every method is given.
+/// One picture on the CPU: what every method is given.
 struct CpuRun {
     const LightField& field;
     const ReconstructOptions& options;
+    std::optional<FocusedBins>& prepared; ///< unset until a method asks for bins
+    float slopeShift;                     ///< see PreparedField
     Monitor& monitor;
     ReconstructReport& report;
     StageObserver* observer; ///< may be null
@@ -24,8 +27,8 @@ struct CpuRun {
             observer->stage(name, {reinterpret_cast<const uint*>(values.data()),
                                    values.size() * sizeof(T) / sizeof(uint)});
     }
-    /// Stage "bin", timed and observed.
-    Bins bin() const;
+    /// Stages "bin", unless it is done, and "refocus", timed; observed.
+    const Bins& bins() const;
 };
 
 using CpuMethod = void(CpuRun& run);

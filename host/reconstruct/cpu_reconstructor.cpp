@@ -12,13 +12,50 @@ namespace {
 /// In the order of Method.
 constexpr std::array<CpuMethod*, kMethodCount> kMethods = {boxMethod, windowMethod, fullMethod, fullMethod};
 
+class CpuPreparedField final : public PreparedField {
+public:
+    CpuPreparedField(const LightField& field, const ReconstructOptions& options)
+        : field_(field), options_(options) {
+        if (throughLens()) scenic_ = onSceneSide(field_);
+    }
+
+    Image picture(float slopeShift, Monitor& monitor, ReconstructReport& report,
+                  StageObserver* observer) override {
+        checkFocus(options_, slopeShift);
+        CpuRun run{seen(),  options_, bins_,    slopeShift,
+                   monitor, report,   observer, FilmBuffer(field_.frame, makeFilterTable(options_.filter))};
+        kMethods.at(std::size_t(options_.method))(run);
+        run.observe("film", run.film.sums());
+        return run.film.toImage(report.emptyPixels);
+    }
+
+    void takeRadiances() override {
+        if (throughLens()) scenic_ = onSceneSide(field_);
+        if (bins_) bins_->takeRadiances(seen());
+    }
+
+private:
+    bool throughLens() const { return usesOutputs(options_.method) && !field_.lensMap.empty(); }
+    const LightField& seen() const { return throughLens() ? scenic_ : field_; }
+
+    const LightField& field_;
+    ReconstructOptions options_;
+    LightField scenic_; ///< empty but through a lens
+    std::optional<FocusedBins> bins_;
+};
+
 } // namespace
 
-Bins CpuRun::bin() const {
-    const Bins bins = [&] {
+const Bins& CpuRun::bins() const {
+    if (!prepared) {
         StageTimer timer(report, "bin", "samples");
         timer.items = field.samples.size();
-        return binSamples(field, searchRegionOf(field, film.filter()));
+        prepared.emplace(field, BinScope{searchRegionOf(field, film.filter()), options.anyFocus});
+    }
+    const Bins& bins = [&]() -> const Bins& {
+        StageTimer timer(report, "refocus", "samples");
+        timer.items = slopeShift != 0 ? field.samples.size() : 0;
+        return prepared->at(slopeShift);
     }();
     observe("bin.bricks", bins.bricks);
     observe("bin.cells", bins.cellStart);
@@ -27,20 +64,9 @@ Bins CpuRun::bin() const {
     return bins;
 }
 
-Image CpuReconstructor::reconstruct(const LightField& field, const ReconstructOptions& options,
-                                    Monitor& monitor, ReconstructReport& report, StageObserver* observer) {
-    LightField scenic;
-    const bool throughLens = usesOutputs(options.method) && !field.lensMap.empty();
-    if (throughLens) scenic = onSceneSide(field);
-    CpuRun run{throughLens ? scenic : field,
-               options,
-               monitor,
-               report,
-               observer,
-               FilmBuffer(field.frame, makeFilterTable(options.filter))};
-    kMethods.at(std::size_t(options.method))(run);
-    run.observe("film", run.film.sums());
-    return run.film.toImage(report.emptyPixels);
+std::unique_ptr<PreparedField> CpuReconstructor::prepare(const LightField& field,
+                                                         const ReconstructOptions& options) {
+    return std::make_unique<CpuPreparedField>(field, options);
 }
 
 } // namespace slant

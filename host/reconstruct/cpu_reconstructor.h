@@ -6,8 +6,8 @@ namespace slant {
 
 class CpuReconstructor final : public Reconstructor {
 public:
-    Image reconstruct(const LightField& field, const ReconstructOptions& options, Monitor& monitor,
-                      ReconstructReport& report, StageObserver* observer) override;
+    std::unique_ptr<PreparedField> prepare(const LightField& field,
+                                           const ReconstructOptions& options) override;
 };
 
 } // namespace slant

@@ -24,7 +24,7 @@ LayerMap layerMapOf(CpuRun& run, const Bins& bins, const MapLayout& layout) {
 } // namespace
 
 void fullMethod(CpuRun& run) {
-    const Bins bins = run.bin();
+    const Bins& bins = run.bins();
     const ReconstructOptions& options = run.options;
     const Rect& frame = run.field.frame;
     const OutputPattern pattern = makeOutputPattern(options.outputsPerPixel, largestSlope(bins.grid),

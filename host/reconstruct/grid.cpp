@@ -65,6 +65,10 @@ float widestSearchPx(const SampleDensity& density) {
     return float(2 << kWidenings) * emptyCircleRadius(density.least);
 }
 
+float marginPx(const BinScope& scope, const SampleDensity& density) {
+    return scope.anyFocus ? kInfinity : widestSearchPx(density);
+}
+
 bool reaches(const LightFieldSample& s, const Rect& region, float marginPx) {
     if (!std::isfinite(s.slope)) return false;
     const vec2 p = pinholePosition(s);
@@ -78,8 +82,9 @@ float largestSlope(const GridLayout& grid) {
                     std::abs(grid.slopeMin + float(grid.bucketCount) / grid.invBucket));
 }
 
-GridLayout chooseGrid(const LightField& field, const SampleDensity& density, const Rect& region) {
-    Bounds bounds = boundsOf(field, region, widestSearchPx(density));
+GridLayout chooseGrid(const LightField& field, const SampleDensity& density, const BinScope& scope) {
+    const Rect& region = scope.region;
+    Bounds bounds = boundsOf(field, region, marginPx(scope, density));
     GridLayout grid{};
     grid.sampleCount = uint(bounds.count);
     if (bounds.count == 0) bounds.add(vec2(0), 0);

@@ -17,6 +17,14 @@ constexpr int kWidenings = 3;
 /// Margin of the samples that outputs of a picture can come to use.
 float widestSearchPx(const SampleDensity& density);
 
+/// Which samples are binned.
+struct BinScope {
+    Rect region;           ///< those that outputs of these pixels can come to use
+    bool anyFocus = false; ///< whatever the focus: all that are not disabled
+};
+/// The margin to give `reaches`: widestSearchPx, or infinity.
+float marginPx(const BinScope& scope, const SampleDensity& density);
+
 constexpr float kFarPx = 1e9f; ///< further than any sample that can be seen
 
 /// Whether any output in `region` can come to use this sample (false for disabled samples).
@@ -25,9 +33,9 @@ bool reaches(const LightFieldSample& sample, const Rect& region, float marginPx)
 /// The largest slope of the grid's buckets, to either side.
 float largestSlope(const GridLayout& grid);
 
-/// Lays the grid over the samples that reach `region`, with fewer than 2^32 cells in all, so that a sort key
+/// Lays the grid over the samples that are binned, with fewer than 2^32 cells in all, so that a sort key
 /// has 32 bits. What lies further off than half the picture goes into the bricks of the rim and the first and
 /// last bucket, which reach to infinity.
-GridLayout chooseGrid(const LightField& field, const SampleDensity& density, const Rect& region);
+GridLayout chooseGrid(const LightField& field, const SampleDensity& density, const BinScope& scope);
 
 } // namespace slant

@@ -1,5 +1,7 @@
 #include "reconstruct/method.h"
 
+#include "base/error.h"
+
 #include <algorithm>
 #include <array>
 
@@ -34,6 +36,16 @@ const Aperture& apertureOf(const LightField& field, const ReconstructOptions& op
 
 std::uint64_t maxDenseSamples(const ReconstructOptions& options) {
     return options.memoryBytes / 2 / sizeof(vec4);
+}
+
+void checkFocus(const ReconstructOptions& options, float slopeShift) {
+    const bool ownPixels = options.method == Method::box || options.method == Method::window;
+    if (slopeShift != 0 && (ownPixels || !options.anyFocus))
+        throw Error(ErrorCode::usage,
+                    fmt::format("method {} {}", nameOf(options.method),
+                                ownPixels ? "looks for samples in their own pixels, which another focus "
+                                            "moves them out of; choose another"
+                                          : "was prepared for the traced focus only"));
 }
 
 StageStats& ReconstructReport::stage(const char* name, const char* unit) {

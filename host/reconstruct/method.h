@@ -7,6 +7,7 @@
 #include "shared/reconstruct.h"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -45,6 +46,7 @@ struct ReconstructOptions {
     std::optional<Aperture> aperture; ///< to look through; unset: the traced one; not `box`
     PixelFilter filter;
     WindowOptions window;
+    bool anyFocus = false; ///< pictures of other focuses are wanted: PreparedField; not `box`, not `window`
     std::uint64_t seed = 0;
     std::uint64_t memoryBytes = std::uint64_t(1) << 30; ///< for dense samples and lists
 };
@@ -80,12 +82,34 @@ struct ReconstructReport {
     StageStats& stage(const char* name, const char* unit);
 };
 
+/// A field made ready, so that its pictures share what they can: samples are binned for the first of them
+/// only. Holds the bins from then on; pictures of other focuses 16 bytes a sample more.
+class PreparedField {
+public:
+    virtual ~PreparedField() = default;
+    /// The picture of field.frame, channels R, G, B, from samples whose slopes are `slopeShift` greater than
+    /// traced: another focus (lightfield/refocus.h). `observer` may be null. Throws Error(usage) for a shift
+    /// unless options.anyFocus. A picture does not depend on which others were made.
+    virtual Image picture(float slopeShift, Monitor& monitor, ReconstructReport& report,
+                          StageObserver* observer) = 0;
+    /// Pictures from now on show the radiances that the samples have by now.
+    virtual void takeRadiances() = 0;
+};
+
 class Reconstructor {
 public:
     virtual ~Reconstructor() = default;
-    /// The picture of field.frame, channels R, G, B. The field must be sanitized. `observer` may be null.
-    virtual Image reconstruct(const LightField& field, const ReconstructOptions& options, Monitor& monitor,
-                              ReconstructReport& report, StageObserver* observer) = 0;
+    /// The field must be sanitized and live on, with nothing changed but radiances.
+    virtual std::unique_ptr<PreparedField> prepare(const LightField& field,
+                                                   const ReconstructOptions& options) = 0;
+    /// A single picture, as traced.
+    Image reconstruct(const LightField& field, const ReconstructOptions& options, Monitor& monitor,
+                      ReconstructReport& report, StageObserver* observer) {
+        return prepare(field, options)->picture(0, monitor, report, observer);
+    }
 };
+
+/// Throws Error(usage) where pictures of the options cannot have that focus.
+void checkFocus(const ReconstructOptions& options, float slopeShift);
 
 } // namespace slant

@@ -126,6 +126,17 @@ struct BinPush {
     uint brickTotal;            // occupied bricks
 };
 
+/// bin_refocus.
+struct RefocusPush {
+    uint recordCount, brickCount;
+    float slopeShift; // pixels per lens radius
+};
+
+/// bin_radiances.
+struct CountPush {
+    uint count;
+};
+
 /// list_count, list_emit, reconstruct, visibility.
 struct OutputPush {
     GridLayout grid;

@@ -25,7 +25,7 @@ struct Fixture {
 
     explicit Fixture(const std::vector<synthetic::Layer>& layers, int spp = 16) {
         const LightField field = synthetic::sample(layers, kFrame, 15, spp, 3);
-        bins = binSamples(field, kFrame);
+        bins = binSamples(field, {kFrame});
         map =
             makeLayerMap(bins, chooseMap(bins.grid, kFrame, mapTexels(field), mapReach(bins.grid, 1), 0.5f));
         allBricks.resize(bins.bricks.size());

@@ -30,7 +30,7 @@ class Occlusion : public testing::TestWithParam<int> {};
 
 TEST_P(Occlusion, partOfTheLensBehindAnEdge) {
     const LightField field = halfPlaneBeforePlane(GetParam());
-    const GridLayout grid = chooseGrid(field, densityOf(field), kFrame);
+    const GridLayout grid = chooseGrid(field, densityOf(field), {kFrame});
     const OcclusionLayout layout = chooseOcclusion(grid, densityOf(field));
     const std::vector<uint> stopped = countStopped(field, grid, layout);
     // A ray to p on the plane behind passes the front at p + (kBack - kFront) u.
@@ -48,7 +48,7 @@ TEST_P(Occlusion, partOfTheLensBehindAnEdge) {
 
 TEST_P(Occlusion, nothingHidesTheFront) {
     const LightField field = halfPlaneBeforePlane(GetParam());
-    const GridLayout grid = chooseGrid(field, densityOf(field), kFrame);
+    const GridLayout grid = chooseGrid(field, densityOf(field), {kFrame});
     const OcclusionLayout layout = chooseOcclusion(grid, densityOf(field));
     const std::vector<uint> stopped = countStopped(field, grid, layout);
     for (float x = 0; x < 48; x += 1)
