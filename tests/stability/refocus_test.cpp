@@ -113,7 +113,8 @@ TEST(Refocus, picturesDoNotDependOnThoseBefore) {
     }
 }
 
-/// Where all samples are kept for any focus the grid lies elsewhere: a few outputs at rims come out otherwise.
+/// Where all samples are kept for any focus the grid lies elsewhere: a few outputs at rims come out
+/// otherwise.
 TEST(Refocus, atTheTracedFocusChangesNothing) {
     const LightField field = traced(19.5f, 4, 1);
     for (const Method method : {Method::full, Method::ladder}) {
