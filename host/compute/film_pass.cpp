@@ -1,11 +1,24 @@
 #include "compute/film_pass.h"
 
 #include <algorithm>
+#include <array>
 
 namespace slant {
 
+namespace {
+
+/// What the samples of a pixel bring to those around it is kept for as many rows at a time, in texels.
+constexpr std::uint64_t kSpreadTexels = 1 << 21;
+
+std::array<std::uint32_t, 2> reachOf(const FilterTable& table) {
+    return {std::uint32_t(table.reach.x), std::uint32_t(table.reach.y)};
+}
+
+} // namespace
+
 FilmPass::FilmPass(Device& device, const FilmBuffer& film)
-    : pass_(device, "pixel_filter"), table_(film.filter()), frame_(film.frame()),
+    : device_(device), table_(film.filter()), frame_(film.frame()),
+      spread_(device, "film_spread", reachOf(table_)), gather_(device, "film_gather", reachOf(table_)),
       weights_(device, TexelFormat::r32f, table_.weights.size()),
       sums_(device, TexelFormat::rgba32f, film.sums().size()) {
     weights_.upload(std::span<const float>(table_.weights));
@@ -14,21 +27,29 @@ FilmPass::FilmPass(Device& device, const FilmBuffer& film)
 
 void FilmPass::accumulate(CommandList& commands, const Buffer& dense, const Band& band, int planes,
                           int groupSize) {
+    const ivec2 reach = table_.reach;
+    const std::uint64_t taps = std::uint64_t(2 * reach.x + 1) * std::uint64_t(2 * reach.y + 1);
+    const std::uint64_t rowTexels = std::uint64_t(band.region.width()) * taps;
+    const int rows = std::clamp(int(kSpreadTexels / rowTexels) - 2 * reach.y, 1, band.y1 - band.y0);
+    const Buffer spread(device_, TexelFormat::rgba32f, std::uint64_t(rows + 2 * reach.y) * rowTexels);
     FilterPush push{};
     push.regionSize = ivec2(band.region.width(), band.region.height());
-    push.reach = table_.reach;
     push.tableLength = table_.length;
-    push.groupSize = groupSize;
     push.filmSize = ivec2(frame_.width(), frame_.height());
-    push.firstRow = band.y0 - frame_.y0;
-    push.rowCount = band.y1 - band.y0;
-    const int taps = 2 * (2 * table_.reach.x + 1) * (2 * table_.reach.y + 2);
-    const int most = std::max(1, kMaxLoopIterations / (taps * kFilmBlock)) * kFilmBlock;
-    for (int first = 0; first < planes; first += most) {
-        push.firstPlane = first;
-        push.planeCount = std::min(most, planes - first);
-        commands.dispatch(pass_, {dense, weights_, sums_}, push,
-                          pass_.gridOver(std::uint32_t(frame_.width()), std::uint32_t(push.rowCount)));
+    push.groupSize = groupSize;
+    for (int y = band.y0; y < band.y1; y += rows) {
+        push.firstRow = y - frame_.y0;
+        push.rowCount = std::min(rows, band.y1 - y);
+        push.regionRow = y - band.y0;
+        for (int first = 0; first < planes; first += kFilmBlock) {
+            push.firstPlane = first;
+            push.planeCount = std::min(kFilmBlock, planes - first);
+            commands.dispatch(spread_, {dense, weights_, spread}, push,
+                              spread_.gridOver(std::uint32_t(push.regionSize.x),
+                                               std::uint32_t(push.rowCount + 2 * reach.y)));
+            commands.dispatch(gather_, {spread, sums_}, push,
+                              gather_.gridOver(std::uint32_t(frame_.width()), std::uint32_t(push.rowCount)));
+        }
     }
     commands.run();
 }

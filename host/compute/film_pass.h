@@ -1,4 +1,4 @@
-// Stage "pixel_filter" on the device: the film, and the pass that adds dense planes to it.
+// Stage "pixel_filter" on the device: the film, and the passes that add dense planes to it.
 #pragma once
 #include "compute/command_list.h"
 #include "reconstruct/film_buffer.h"
@@ -17,9 +17,10 @@ public:
     void download(FilmBuffer& film) const;
 
 private:
-    Pass pass_;
+    Device& device_;
     FilterTable table_;
     Rect frame_;
+    Pass spread_, gather_;
     Buffer weights_, sums_;
 };
 

@@ -10,7 +10,7 @@ namespace slant {
 namespace {
 
 /// Weight of a sample at subpixel q of the pixel `offset` pixels away, along one axis. As
-/// lib/pixel_filter.glsl.
+/// film_spread.comp.
 float axisWeight(const FilterTable& filter, int axis, int offset, int q) {
     const int k = offset * kSubpixels + q - kSubpixels / 2;
     const int index = k >= 0 ? k : -k - 1;
@@ -22,29 +22,30 @@ vec4 weighted(const vec4& sample, float weight) {
     return vec4(weight * sample.x, weight * sample.y, weight * sample.z, weight);
 }
 
-vec4 filtered(const FilterTable& filter, const vec4& sample, ivec2 offset) {
-    if (sample.w < 0) return vec4(0);
-    const int code = int(sample.w);
-    return weighted(sample, axisWeight(filter, 0, offset.x, code / kSubpixels) *
-                                axisWeight(filter, 1, offset.y, code % kSubpixels));
-}
-
-/// A sample that stands for a group of `size`.
-vec4 filteredGroup(const FilterTable& filter, const vec4& sample, ivec2 offset, int size) {
+/// Weight of a sample that stands for all places in the pixel `offset` pixels away.
+float meanWeight(const FilterTable& filter, ivec2 offset) {
     const float* means = filter.weights.data() + filter.length.x + filter.length.y;
-    const float weight = means[glm::abs(offset.x)] * means[filter.reach.x + 1 + glm::abs(offset.y)];
-    return weighted(sample, float(size) * weight);
+    return means[glm::abs(offset.x)] * means[filter.reach.x + 1 + glm::abs(offset.y)];
 }
 
-/// A group of `size` samples, a plane apart; those that were taken stand for those left out.
-vec4 filteredEach(const FilterTable& filter, const vec4* sample, std::size_t plane, ivec2 offset, int size) {
-    vec4 taken(0);
-    int leftOut = 0;
-    for (int k = 0; k < size; ++k) {
-        taken += filtered(filter, sample[std::size_t(k) * plane], offset);
-        if (sample[std::size_t(k) * plane].w == kLeftOut) ++leftOut;
+/// Adds what a group of `size` samples, a plane apart, brings to the pixel that sees theirs `offset` pixels
+/// away.
+void addGroup(vec4& sum, const FilterTable& filter, const vec4* sample, std::size_t plane, int size,
+              ivec2 offset) {
+    if (sample->w == kWholePixel) {
+        sum += weighted(*sample, float(size) * meanWeight(filter, offset));
+        return;
     }
-    return float(size) / float(size - leftOut) * taken;
+    int leftOut = 0;
+    for (int k = 0; k < size; ++k) leftOut += sample[std::size_t(k) * plane].w == kLeftOut;
+    const float scale = float(size) / float(size - leftOut);
+    for (int k = 0; k < size; ++k) {
+        const vec4& own = sample[std::size_t(k) * plane];
+        if (own.w < 0) continue;
+        const int code = int(own.w);
+        sum += weighted(own, scale * (axisWeight(filter, 0, offset.x, code / kSubpixels) *
+                                      axisWeight(filter, 1, offset.y, code % kSubpixels)));
+    }
 }
 
 } // namespace
@@ -62,17 +63,16 @@ vec4 FilmBuffer::partOf(const DenseSamples& dense, int x, int y, int begin, int 
     const std::size_t plane = dense.region.area();
     const ivec2 reach = filter_.reach;
     vec4 part(0);
-    for (int group = begin; group < end; group += dense.groupSize)
-        for (int dy = -reach.y; dy <= reach.y; ++dy)
-            for (int dx = -reach.x; dx <= reach.x; ++dx) {
-                const vec4* sample = dense.samples.data() + group * plane +
-                                     std::size_t(y + dy - dense.region.y0) * dense.region.width() +
-                                     (x + dx - dense.region.x0);
-                if (sample->w == kWholePixel)
-                    part += filteredGroup(filter_, *sample, ivec2(dx, dy), dense.groupSize);
-                else
-                    part += filteredEach(filter_, sample, plane, ivec2(dx, dy), dense.groupSize);
-            }
+    for (int dy = -reach.y; dy <= reach.y; ++dy)
+        for (int dx = -reach.x; dx <= reach.x; ++dx) {
+            const vec4* sample = dense.samples.data() +
+                                 std::size_t(y + dy - dense.region.y0) * dense.region.width() +
+                                 (x + dx - dense.region.x0);
+            vec4 sum(0);
+            for (int group = begin; group < end; group += dense.groupSize)
+                addGroup(sum, filter_, sample + group * plane, plane, dense.groupSize, ivec2(dx, dy));
+            part += sum;
+        }
     return part;
 }
 

@@ -68,7 +68,7 @@ LensBox cellsOf(const OutputPattern& pattern, std::size_t first, std::size_t las
 int groupBitsFor(int outputsPerPixel, float slopePx) {
     constexpr float kSpreadPx = 16;
     int bits = 0;
-    while ((2 << bits) <= std::min(outputsPerPixel, kFilmBlock) &&
+    while ((2 << bits) <= std::min(outputsPerPixel, kMostGroupSize) &&
            (bits == 0 || 2 * std::sqrt(float(2 << bits) / float(outputsPerPixel)) * slopePx <= kSpreadPx))
         ++bits;
     return bits;

@@ -49,7 +49,7 @@ inline int inOrder(const glm::uvec4& entry) {
     return int(entry.w >> 8 & 255u);
 }
 
-/// Groups are of up to kFilmBlock outputs, fewer where `slopePx`, the largest slope to either side, would
+/// Groups are of up to kMostGroupSize outputs, fewer where `slopePx`, the largest slope to either side, would
 /// spread them over the picture. Throws Error(usage) unless isOutputCount(outputsPerPixel).
 OutputPattern makeOutputPattern(int outputsPerPixel, float slopePx, float lensScale = 1,
                                 Aperture aperture = {});

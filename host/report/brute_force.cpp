@@ -10,7 +10,7 @@ namespace slant {
 namespace {
 
 /// Samples of a pixel traced at a time, a multiple of the film's block.
-constexpr int kBatch = 4 * kFilmBlock;
+constexpr int kBatch = kFilmBlock;
 
 } // namespace
 

@@ -8,9 +8,10 @@ SLANT_SHARED_BEGIN
 /// Outputs are reconstructed in square tiles of this many pixels a side; one workgroup is one tile.
 SLANT_SHARED_CONSTANT int kTileSize = 8;
 /// Dense samples of a pixel that are summed up before they go into the film, so that chunks of any number of
-/// whole blocks give the same film; and the most outputs of a pixel that share a lens group, and so a list of
-/// bricks.
-SLANT_SHARED_CONSTANT int kFilmBlock = 8;
+/// whole blocks give the same film.
+SLANT_SHARED_CONSTANT int kFilmBlock = 32;
+/// Most outputs of a pixel that share a lens group, and so a list of bricks; whole groups make a block.
+SLANT_SHARED_CONSTANT int kMostGroupSize = 8;
 /// The search radius R is this over the square root of the samples a pixel where they are fewest; that of a
 /// sample (its own radius) the same where it lies.
 SLANT_SHARED_CONSTANT float kSearchRadius = 1.7f;
@@ -153,14 +154,14 @@ struct OutputPush {
     int takenBits;  // 2^takenBits of them are made, the first of the group's order
 };
 
-/// pixel_filter: planes of dense samples into a band of the film.
+/// film_spread, film_gather: planes of dense samples into rows of the film.
 struct FilterPush {
     ivec2 regionSize;  // of the dense planes
-    ivec2 reach;       // pixels to each side
     ivec2 tableLength; // entries of each axis
     ivec2 filmSize;
-    int firstRow; // of the film
-    int rowCount;
+    int firstRow;  // of the film
+    int rowCount;  // of the film; with the filter's reach above and below, those of the region that count
+    int regionRow; // of the region, the first that counts
     int firstPlane;
     int planeCount;
     int groupSize; // planes of a lens group

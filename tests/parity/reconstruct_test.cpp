@@ -131,9 +131,9 @@ TEST_F(ReconstructParity, filmDoesNotDependOnMemory) {
     for (const Method method : {Method::box, Method::window, Method::full}) {
         ReconstructOptions options = optionsOf(method, 64);
         const Reconstruction plenty = runBoth(field, options);
-        // 6 bands of 8 rows (times 8 chunks each), then 1 or 2 bands (4 chunks).
-        for (const auto& [bytes, denseStages] : {std::pair(200'000u, method == Method::box ? 6 : 48),
-                                                 {1'500'000u, method == Method::box ? 1 : 4}}) {
+        // 6 bands of 8 rows (of `box`, 2 bands) times 2 chunks, then 2 bands (1) times 2 chunks.
+        for (const auto& [bytes, denseStages] : {std::pair(700'000u, method == Method::box ? 2 : 12),
+                                                 {3'000'000u, method == Method::box ? 1 : 4}}) {
             options.memoryBytes = bytes;
             const Reconstruction tight = runBoth(field, options);
             EXPECT_EQ(std::count(tight.stages.names.begin(), tight.stages.names.end(), "dense"), denseStages);
