@@ -79,8 +79,9 @@ const DeviceBins& ComputeRun::bins() {
         timer.bytes = device.peakBytes();
     }
     const DeviceBins& bins = [&]() -> const DeviceBins& {
+        if (slopeShift == 0) return prepared.onDevice->at(commands, 0);
         StageTimer timer(report, "refocus", "samples");
-        timer.items = slopeShift != 0 ? field.samples.size() : 0;
+        timer.items = field.samples.size();
         return prepared.onDevice->at(commands, slopeShift);
     }();
     observe("bin.bricks", bins.bricks);

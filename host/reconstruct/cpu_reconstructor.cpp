@@ -53,8 +53,9 @@ const Bins& CpuRun::bins() const {
         prepared.emplace(field, BinScope{searchRegionOf(field, film.filter()), options.anyFocus});
     }
     const Bins& bins = [&]() -> const Bins& {
+        if (slopeShift == 0) return prepared->at(0);
         StageTimer timer(report, "refocus", "samples");
-        timer.items = slopeShift != 0 ? field.samples.size() : 0;
+        timer.items = field.samples.size();
         return prepared->at(slopeShift);
     }();
     observe("bin.bricks", bins.bricks);
