@@ -31,7 +31,8 @@ ivec2 aligned(vec2 px, bool up) {
 } // namespace
 
 int mapTexels(const LightField& field) {
-    return emptyCircleRadius(float(sampleCounts(field).most)) >= 1 ? 1 : kMostMapTexels;
+    // From two samples a pixel on, wider texels soften what is in focus.
+    return sampleCounts(field).most <= 1 ? 1 : kMostMapTexels;
 }
 
 float mapReach(const GridLayout& grid, float lensScale) {

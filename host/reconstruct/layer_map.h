@@ -22,7 +22,7 @@ struct LayerMap {
 /// How far a surface may move over the lens, pixels, so that the map serves it: as far as any does, up to a
 /// bound.
 float mapReach(const GridLayout& grid, float lensScale);
-/// Texels along a pixel's side: at least as close as samples, if kMostMapTexels is enough for that.
+/// Texels along a pixel's side: a single one where no pixel has more samples than that.
 int mapTexels(const LightField& field);
 /// Rows of a band whose map fits into so many bytes. Throws Error(resources) where a row of tiles does not.
 int mapRows(const Rect& frame, int texels, float reachPx, std::uint64_t bytes);

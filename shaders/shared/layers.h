@@ -54,7 +54,7 @@ struct SlopeCode {
 struct MapLayout {
     ivec2 origin; // pixel at the corner of the first texel
     ivec2 size;   // texels of level 0
-    int texels;   // 1 or kMostMapTexels: no more than samples need
+    int texels;   // 1 or kMostMapTexels, see mapTexels
     int levels;
     float surfaceGap;  // as GridLayout
     float reachPx;     // a surface that moves further over the lens may lie outside the map

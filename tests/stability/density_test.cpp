@@ -96,7 +96,7 @@ TEST_P(DensityOfMethod, noHolesAndNoDrift) {
 TEST_P(DensityOfMethod, isAsExactAsUniformFieldsOfThatDensity) {
     const auto counts = [](int x, int) { return x < 64 ? 2 : 16; };
     double sparse = 0, dense = 0, uniformSparse = 0, uniformDense = 0;
-    for (const std::uint32_t seed : {1, 2}) {
+    for (const std::uint32_t seed : {1, 2, 3, 4, 5, 6}) {
         const auto imageOf = [&](const auto& spp) {
             return reconstruct(synthetic::sample(kLayers, kFrame, kOverscan, spp, seed), GetParam()).image;
         };
@@ -105,7 +105,7 @@ TEST_P(DensityOfMethod, isAsExactAsUniformFieldsOfThatDensity) {
         dense += mse(both, 78, 128), uniformDense += mse(sixteen, 78, 128);
     }
     EXPECT_LT(sparse, 1.1 * uniformSparse);
-    EXPECT_LT(dense, 1.15 * uniformDense);
+    EXPECT_LT(dense, 1.1 * uniformDense);
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, DensityOfMethod, testing::Values(Method::full, Method::ladder),

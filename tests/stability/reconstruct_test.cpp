@@ -117,8 +117,7 @@ TEST(ReconstructStability, stripBehindABlurredEdgeIsSolid) {
                 got += image.pixels[3 * std::size_t(y * kFrame.width() + x)];
                 wanted += truth.pixels[3 * std::size_t(y * kFrame.width() + x)];
             }
-            // Two pixels from an edge in focus: from a map of one texel a pixel it is a little softer.
-            EXPECT_NEAR(got / 56, wanted / 56, method == Method::ladder && spp == 2 ? 0.016 : 0.012)
+            EXPECT_NEAR(got / 56, wanted / 56, 0.012)
                 << nameOf(method) << ", x " << x << ", " << spp << " samples a pixel";
         }
     }
