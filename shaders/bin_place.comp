@@ -27,8 +27,8 @@ void main() {
     const int index = int(push.firstSample + i);
     const bool kept = reaches(p, slope, vec2(push.regionMin), vec2(push.regionMax), push.marginPx);
     imageStore(positions, index, vec4(p, slope, radiance.w));
-    const float narrowing = kept ? narrowingAt(push.density, p, slope, push.grid.radiusPx) : 1.0;
-    imageStore(radiances, index, vec4(radiance.rgb, narrowing));
+    const float radiusRatio = kept ? radiusRatioAt(push.density, p, slope, push.grid.radiusPx) : 1.0;
+    imageStore(radiances, index, vec4(radiance.rgb, radiusRatio));
     imageStore(keys, index, uvec4(kept ? sortKey(push.grid, p, slope) : kNotBinned));
     imageStore(indices, index, uvec4(uint(index)));
 }

@@ -21,7 +21,7 @@ layout(set = 0, binding = 13) uniform textureBuffer lensMap;
 
 vec4 lensMapAt(int texel) { return texelFetch(lensMap, texel); }
 #include "lib/output_pattern.glsl"
-#include "lib/see_through.glsl"
+#include "lib/scene_side.glsl"
 
 /// Output of a lens group, of those that stand at `rank` in its order.
 uint memberAt(uint firstOfGroup, uint rank) {
@@ -87,15 +87,15 @@ void main() {
     const uint inPlane = uint(position.y * outputs.regionSize.x + position.x), slot = k * plane + inPlane;
     for (uint other = rank + (1u << takenBits); other < 1u << groupBits; other += 1u << takenBits)
         imageStore(dense, int((firstOfGroup + memberAt(firstOfGroup, other)) * plane + inPlane), vec4(vec3(0.0), kLeftOut));
-    if (kThroughLens) {
-        seeThrough(o);
+    if (kCompoundLens) {
+        toSceneSide(o);
         if (!(o.weight > 0.0)) { // the film is dark
             imageStore(dense, int(slot), vec4(0.0, 0.0, 0.0, o.positionCode));
             return;
         }
     }
     Sweep sweep = Sweep(true, 1.0 / grid.radiusPx, grid.surfaceGap, vec3(0.0), 0.0, -kInfinity, noHull());
-    const bool complete = forEachCandidate(grid, o, grid.radiusPx, kAnyNarrowing, texelFetch(listStart, int(list)).x,
+    const bool complete = forEachCandidate(grid, o, grid.radiusPx, kAnyRadiusRatio, texelFetch(listStart, int(list)).x,
                                            texelFetch(listStart, int(list) + 1).x, sweep);
     if (!complete) {
         imageStore(overflowList, int(imageAtomicAdd(counters, int(kOverflowCount), 1u)), uvec4(slot));

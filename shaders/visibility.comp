@@ -21,7 +21,7 @@ layout(set = 0, binding = 13) uniform textureBuffer lensMap;
 
 vec4 lensMapAt(int texel) { return texelFetch(lensMap, texel); }
 #include "lib/output_pattern.glsl"
-#include "lib/see_through.glsl"
+#include "lib/scene_side.glsl"
 
 struct Sweep {
     bool running;
@@ -58,13 +58,13 @@ void main() {
     const int index = push.firstOutput + int(k);
     Output o = outputAt(outputs.regionOrigin + position, index, texelFetch(pattern, index), push.lensCells,
                         push.lensScale, outputs.seed);
-    if (kThroughLens) seeThrough(o);
+    if (kCompoundLens) toSceneSide(o);
     const int list =
         ((int(k) >> push.groupBits) * outputs.tileCount.y + tile.y) * outputs.tileCount.x + tile.x;
     const float widening = push.radiusPx / push.grid.radiusPx;
     Sweep sweep = Sweep(true, push.radiusPx, push.grid.surfaceGap, kFullWeight * widening * widening, noSurface(),
                         Layers(vec3(0.0), 1.0));
-    const bool complete = forEachCandidate(push.grid, o, 2.0 * push.radiusPx, kAnyNarrowing, texelFetch(listStart, list).x,
+    const bool complete = forEachCandidate(push.grid, o, 2.0 * push.radiusPx, kAnyRadiusRatio, texelFetch(listStart, list).x,
                                            texelFetch(listStart, list + 1).x, sweep);
     if (!complete) {
         imageStore(overflowList, int(imageAtomicAdd(counters, int(kOverflowCount), 1u)), uvec4(slot));

@@ -22,7 +22,7 @@ layout(push_constant) uniform Push { WindowPush push; };
 float apertureAt(int i) { return texelFetch(apertureTable, i).x; }
 vec4 lensMapAt(int texel) { return texelFetch(lensMap, texel); }
 #include "lib/output_pattern.glsl"
-#include "lib/see_through.glsl"
+#include "lib/scene_side.glsl"
 
 struct WindowSurface {
     int count;
@@ -42,7 +42,7 @@ struct WindowCandidate {
 WindowCandidate candidateAt(uint record, Output o) {
     const vec4 position = texelFetch(positions, int(record));
     vec2 offset = position.xy + position.z * o.uv - o.xy;
-    if (kThroughLens) offset = onFilm(o, offset);
+    if (kCompoundLens) offset = onFilm(o, offset);
     return WindowCandidate(offset, offset.x * offset.x + offset.y * offset.y, position.z, position.w, record);
 }
 
@@ -74,8 +74,8 @@ void main() {
     const ivec2 pixel = outputs.regionOrigin + ivec2(place % size.x, place / size.x);
     const int index = push.firstOutput + int(k);
     Output o = outputAt(pixel, index, texelFetch(pattern, index), push.lensCells, push.lensScale, outputs.seed);
-    if (kThroughLens) {
-        seeThrough(o);
+    if (kCompoundLens) {
+        toSceneSide(o);
         if (!(o.weight > 0.0)) { // the film is dark
             imageStore(dense, int(slot), vec4(0.0, 0.0, 0.0, o.positionCode));
             return;
@@ -139,7 +139,7 @@ void main() {
     bool taken = false;
     for (int i = 0; i < found && !taken; ++i) {
         const WindowCandidate candidate = candidateAt(records[i], o);
-        if (surface.count >= kLeastSurface && !sameSurface(previous, candidate, search.lensStep)) {
+        if (surface.count >= kMinSurface && !sameSurface(previous, candidate, search.lensStep)) {
             taken = surrounds(surface.hull);
             if (taken) break;
             if (front.count == 0) front = surface;

@@ -14,7 +14,7 @@ constexpr double kMillimetres = 1000; ///< a metre
 /// The pupil is known this far beyond the corners of the film, for overscan; farther out the film is dark.
 constexpr double kFilmReach = 2;
 /// Rays that leave the lens at a right angle to its axis or backwards have no depth.
-constexpr double kLeastForward = 1e-3;
+constexpr double kMinForward = 1e-3;
 /// Where interpolation puts a ray outside the pupil, it is taken this much nearer to the centre, and so on.
 constexpr float kInwards = 0.98f;
 constexpr int kInwardSteps = 8;
@@ -87,7 +87,7 @@ std::optional<ScenePath> CompoundLens::path(glm::dvec2 raster, glm::dvec2 pupil,
     }
     const bool through = rims == Rims::block ? lens_.traceFromFilm(ray, derivatives)
                                              : lens_.traceBesideRims(ray, derivatives).has_value();
-    if (!through || ray.direction.z < kLeastForward) return std::nullopt;
+    if (!through || ray.direction.z < kMinForward) return std::nullopt;
     const glm::dvec2 tangent = glm::dvec2(ray.direction) / ray.direction.z;
     const double t = (depthOrigin_ - ray.origin.z) / ray.direction.z;
     ScenePath path;
@@ -107,7 +107,7 @@ CameraSample CompoundLens::dark(glm::vec2 lens) const {
 
 /// `ray` has left the lens.
 CameraSample CompoundLens::inWorld(const LensRay& ray, glm::vec2 lens, float weight) const {
-    if (ray.direction.z < kLeastForward) return dark(lens);
+    if (ray.direction.z < kMinForward) return dark(lens);
     const glm::dvec3 direction = ray.direction / ray.direction.z;
     const glm::dvec3 origin = ray.origin + (depthOrigin_ - ray.origin.z) * direction;
     const auto world = [&](glm::dvec3 v) { return right_ * v.x + down_ * v.y; };

@@ -50,10 +50,10 @@ public:
     const LensMap& lensMap() const { return lensMap_; }
     /// Where a ray meets the plane in focus, in pixels from the film's centre, and that of the entrance
     /// pupil, in its radii: what the lens map tabulates.
-    glm::dvec2 scenicPlace(const ScenePath::Line& line) const {
+    glm::dvec2 sceneRay(const ScenePath::Line& line) const {
         return pixelsPerTangent_ / focusDepth_ * line.at(focusDepth_);
     }
-    glm::dvec2 scenicPupil(const ScenePath::Line& line) const { return line.position / pupilRadius_; }
+    glm::dvec2 entrancePupilPlace(const ScenePath::Line& line) const { return line.position / pupilRadius_; }
 
     /// The ray through a raster position and a place on the exit pupil's plane, in units of its radius;
     /// nothing if it is blocked. `change` is along these.

@@ -9,7 +9,7 @@ namespace slant {
 namespace {
 
 constexpr int kRadii = 1024;
-constexpr float kMostNodes = float(1 << 24);
+constexpr float kMaxNodes = float(1 << 24);
 
 /// A ray of the lens on the scene's side: in doubles, and without the rest.
 struct Traced {
@@ -21,7 +21,7 @@ std::optional<Traced> traced(const CompoundLens& camera, double px, glm::dvec2 p
     const auto path = camera.path(camera.filmCentre() + glm::dvec2(px, 0), pupil / camera.pupil().radius(),
                                   camera.stopPupil() ? Rims::ignore : Rims::block);
     if (!path) return std::nullopt;
-    return Traced{camera.scenicPlace(path->line), camera.scenicPupil(path->line)};
+    return Traced{camera.sceneRay(path->line), camera.entrancePupilPlace(path->line)};
 }
 
 /// What the middle of the pupil sees, up to where it sees nothing.
@@ -89,12 +89,12 @@ LensMap makeLensMap(const CompoundLens& camera) {
     return LensMap(std::move(texels));
 }
 
-ScenicPlace LensMap::at(vec2 raster, vec2 lens) const {
+SceneRay LensMap::at(vec2 raster, vec2 lens) const {
     const vec4 &head = texels_[0], &shape = texels_[1];
     const vec2 offset = raster - vec2(head.x, head.y);
     const float r = glm::sqrt(offset.x * offset.x + offset.y * offset.y);
     const float radii = r * head.z;
-    ScenicPlace place{};
+    SceneRay place{};
     if (!(radii < head.w - 1)) return place;
     const int radius = int(radii);
     const vec4& inner = texels_[std::size_t(kLensMapHeader + radius)];
@@ -157,7 +157,7 @@ const char* faultOf(const std::vector<vec4>& texels) {
     const vec4 &head = texels[0], &shape = texels[1];
     const bool ofStop = texels[2].x > 0;
     const auto count = [](float value, float least) {
-        return value >= least && value <= kMostNodes && value == std::floor(value);
+        return value >= least && value <= kMaxNodes && value == std::floor(value);
     };
     if (!(head.z > 0 && shape.x > 0 && count(head.w, 2) && count(shape.y, 2) && count(shape.z, 1) &&
           count(shape.w, 1)))

@@ -22,7 +22,7 @@
 namespace slant {
 
 /// A ray on the scene's side.
-struct ScenicPlace {
+struct SceneRay {
     vec2 xy; ///< on the plane in focus, pixels
     vec2 uv; ///< on the entrance pupil's plane, radii
     /// Symmetric matrix (xx, xy, yy) that turns a short way there into one on the film.
@@ -43,7 +43,7 @@ public:
     const std::vector<vec4>& texels() const { return texels_; }
 
     /// `lens` in the unit disc.
-    ScenicPlace at(vec2 raster, vec2 lens) const;
+    SceneRay at(vec2 raster, vec2 lens) const;
 
 private:
     std::vector<vec4> texels_;

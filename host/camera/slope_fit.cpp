@@ -33,8 +33,8 @@ struct LineFit {
 
 } // namespace
 
-RadialSlope SlopeFit::at(SlopeRung rung, double px) const {
-    if (rung == SlopeRung::lens) return whole;
+RadialSlope SlopeFit::at(SlopeFitKind fit, double px) const {
+    if (fit == SlopeFitKind::lens) return whole;
     const double last = double(byRadius.size() - 1), place = std::min(px / radiusPx * last, last);
     const std::size_t k = std::min(std::size_t(place), byRadius.size() - 2);
     const double f = place - double(k);

@@ -1,4 +1,4 @@
-// The ladder of slope models on the film's side: how much a sample has to know to say where its point is seen
+// Slope models on the film's side: how much a sample has to know to say where its point is seen
 // through another part of the exit pupil. A lens that images sharply needs two constants; that real ones need
 // more, and how much even the best leaves, is why rays are described on the scene's side (lens_map.h).
 #pragma once
@@ -10,7 +10,7 @@ namespace slant {
 
 inline constexpr double kSlopeTolerancePx = 0.25;
 
-enum class SlopeRung {
+enum class SlopeFitKind {
     lens,       ///< c1 / depth + c2, the same for all samples
     filmRadius, ///< c1 and c2 by distance from the middle of the film, along and across the radius
     sample,     ///< from the lens itself, by the derivatives of the sample's own ray
@@ -23,14 +23,14 @@ struct RadialSlope {
     glm::dvec2 at(double inverseDepth) const { return c1 * inverseDepth + c2; }
 };
 
-/// Of the lower rungs.
+/// Of the lower fits.
 struct SlopeFit {
     RadialSlope whole;                 ///< the same in both directions
     std::vector<RadialSlope> byRadius; ///< evenly spaced from 0 to radiusPx
     double radiusPx = 0;
 
     /// At `px` pixels from the middle of the film.
-    RadialSlope at(SlopeRung rung, double px) const;
+    RadialSlope at(SlopeFitKind fit, double px) const;
 };
 
 /// How the raster position changes with the place on the exit pupil through which a point of the ray is seen,

@@ -19,7 +19,7 @@ constexpr double kNewtonEndPx = 1e-7;
 struct Sighting {
     glm::dvec2 raster, lens;
     glm::dmat2 slope{}; ///< there
-    ScenicPlace scenic{};
+    SceneRay sceneRay{};
 };
 
 /// Finds the raster position at which the target is seen, by Newton's method from a guess.
@@ -78,7 +78,7 @@ Sightings sightings(const CompoundLens& camera, double px, double inverseDepth) 
         Sighting seen{raster + slope * (lens - centre), lens};
         if (!find(camera, chief->line, inverseDepth, seen)) continue;
         if (const auto place = discPlace(camera, seen))
-            seen.scenic = camera.lensMap().at(seen.raster, *place);
+            seen.sceneRay = camera.lensMap().at(seen.raster, *place);
         found[i] = seen;
     }
     return found;
@@ -97,7 +97,7 @@ glm::dmat2 radialMatrix(const CompoundLens& camera, const SlopeFit& fit, glm::dv
     const double r = glm::length(offset);
     const glm::dvec2 e = r > 0 ? offset / r : glm::dvec2(1, 0);
     const glm::dmat2 frame(e, glm::dvec2(-e.y, e.x));
-    const glm::dvec2 slopes = fit.at(SlopeRung::filmRadius, r).at(inverseDepth);
+    const glm::dvec2 slopes = fit.at(SlopeFitKind::filmRadius, r).at(inverseDepth);
     return frame * glm::dmat2(slopes.x, 0, 0, slopes.y) * glm::transpose(frame);
 }
 
@@ -130,7 +130,7 @@ DepthResiduals residualsAt(const CompoundLens& camera, const SlopeFit& fit, doub
                     radial * step + aberration, isotropic(all[i]->slope) * step, all[i]->slope * step};
                 for (std::size_t m = 0; m < predicted.size(); ++m)
                     errors[m].push_back(glm::length(truth - predicted[m]));
-                const ScenicPlace &from = all[i]->scenic, &to = all[j]->scenic;
+                const SceneRay &from = all[i]->sceneRay, &to = all[j]->sceneRay;
                 if (!(from.weight > 0 && to.weight > 0)) continue;
                 const glm::dvec2 off = glm::dvec2(to.xy - from.xy) - slope * glm::dvec2(to.uv - from.uv);
                 const glm::dvec3 m = to.filmMetric;
@@ -157,19 +157,19 @@ std::vector<DepthResiduals> slopeResiduals(const CompoundLens& camera, double ne
     return result;
 }
 
-double worstResidual(const std::vector<DepthResiduals>& residuals, SlopeRung rung) {
+double worstResidual(const std::vector<DepthResiduals>& residuals, SlopeFitKind fit) {
     constexpr std::array kOf{&DepthResiduals::lens, &DepthResiduals::radiusMean, &DepthResiduals::sampleMean};
     double worst = 0;
     for (const DepthResiduals& at : residuals)
-        worst = std::max(worst, (at.*kOf[std::size_t(rung)]).percentile95);
+        worst = std::max(worst, (at.*kOf[std::size_t(fit)]).percentile95);
     return worst;
 }
 
-SlopeRung selectRung(const std::vector<DepthResiduals>& residuals, double tolerancePx) {
-    SlopeRung best = SlopeRung::lens;
-    for (const SlopeRung rung : {SlopeRung::lens, SlopeRung::filmRadius, SlopeRung::sample}) {
-        if (worstResidual(residuals, rung) <= tolerancePx) return rung;
-        if (worstResidual(residuals, rung) < worstResidual(residuals, best)) best = rung;
+SlopeFitKind selectSlopeFit(const std::vector<DepthResiduals>& residuals, double tolerancePx) {
+    SlopeFitKind best = SlopeFitKind::lens;
+    for (const SlopeFitKind fit : {SlopeFitKind::lens, SlopeFitKind::filmRadius, SlopeFitKind::sample}) {
+        if (worstResidual(residuals, fit) <= tolerancePx) return fit;
+        if (worstResidual(residuals, fit) < worstResidual(residuals, best)) best = fit;
     }
     return best;
 }

@@ -31,11 +31,11 @@ struct DepthResiduals {
 /// At `nearDepth`, in focus (if between them) and at `farDepth`, which may be infinite.
 std::vector<DepthResiduals> slopeResiduals(const CompoundLens& camera, double nearDepth, double farDepth);
 
-/// The largest 95th percentile of a rung's isotropic slopes.
-double worstResidual(const std::vector<DepthResiduals>& residuals, SlopeRung rung);
+/// The largest 95th percentile of a fit's isotropic slopes.
+double worstResidual(const std::vector<DepthResiduals>& residuals, SlopeFitKind fit);
 
-/// The lowest rung whose isotropic residuals stay within the tolerance by their 95th percentile at each
+/// The lowest fit whose isotropic residuals stay within the tolerance by their 95th percentile at each
 /// depth; else the one of the smallest.
-SlopeRung selectRung(const std::vector<DepthResiduals>& residuals, double tolerancePx);
+SlopeFitKind selectSlopeFit(const std::vector<DepthResiduals>& residuals, double tolerancePx);
 
 } // namespace slant

@@ -58,7 +58,7 @@ void checkFocusOptions(const FocusOptions& options, Method method) {
                     fmt::format("method {} takes the traced lens only; choose another", nameOf(method)));
 }
 
-float lensScale(const FocusOptions& options, const FieldDetails& details) {
+float lensScale(const FocusOptions& options, const FieldMetadata& details) {
     if (!options.fStop) return options.apertureScale.value_or(1.f);
     if (!(details.focalLength > 0) || !(details.lensRadius > 0))
         throw Error(ErrorCode::usage,

@@ -29,7 +29,7 @@ void checkFocusOptions(const FocusOptions& options, Method method);
 
 /// The lens radius over the traced one. Throws Error(usage) for an f-number where the file does not say what
 /// it takes.
-float lensScale(const FocusOptions& options, const FieldDetails& details);
+float lensScale(const FocusOptions& options, const FieldMetadata& details);
 
 /// Focus distance of each picture; unset: as traced. A pull takes even steps of 1/distance, in which blur is
 /// even.

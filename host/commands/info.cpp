@@ -27,7 +27,7 @@ struct DerivedCamera {
 
 DerivedCamera deriveCamera(const FieldFile& file) {
     const SlopeModel& slope = file.field.slopeModel;
-    const FieldDetails& details = file.details;
+    const FieldMetadata& details = file.details;
     DerivedCamera camera;
     const bool thin = isThinLens(file.field);
     if (thin) camera.focusDistance = focusDistance(slope);
@@ -68,7 +68,7 @@ void line(std::string_view name, const std::string& value) {
 
 void printText(const std::string& path, const FieldFile& file, const FieldSummary& summary) {
     const LightField& field = file.field;
-    const FieldDetails& details = file.details;
+    const FieldMetadata& details = file.details;
     fmt::print("{}: light field, {}\n", oneLine(path), nameOf(file.format));
     line("frame", fmt::format("{} of a film of {}", sizeText(field.frame), sizeText(details.film)));
     line("samples",
@@ -114,7 +114,7 @@ nlohmann::ordered_json orNull(const std::optional<Number>& value) {
 
 void printJson(const std::string& path, const FieldFile& file, const FieldSummary& summary) {
     const LightField& field = file.field;
-    const FieldDetails& details = file.details;
+    const FieldMetadata& details = file.details;
     const DerivedCamera camera = deriveCamera(file);
     const SampleCounts counts = sampleCounts(field);
     const FieldDefects& d = summary.defects;

@@ -145,10 +145,10 @@ void printResiduals(const Subject& subject, double tolerancePx) {
             fmt::print("{:>18}",
                        fmt::format("{:.2f} / {:.2f}", (at.*member).percentile95, (at.*member).maximum));
     }
-    const SlopeRung rung = selectRung(residuals, tolerancePx);
+    const SlopeFitKind fit = selectSlopeFit(residuals, tolerancePx);
     constexpr std::array kNames{"lens", "film radius", "sample"};
-    fmt::print("\n  A tolerance of {:g} px selects: {}{}\n", tolerancePx, kNames[std::size_t(rung)],
-               worstResidual(residuals, rung) > tolerancePx ? ", the best, though none is within it" : "");
+    fmt::print("\n  A tolerance of {:g} px selects: {}{}\n", tolerancePx, kNames[std::size_t(fit)],
+               worstResidual(residuals, fit) > tolerancePx ? ", the best, though none is within it" : "");
 }
 
 void runLens(const LensOptions& options) {

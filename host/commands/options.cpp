@@ -90,9 +90,9 @@ void checkMethodOptions(const CommonOptions& options) {
     if (options.method != Method::window && !options.windowOption.empty())
         throw Error(ErrorCode::usage, fmt::format("{} is for --method window, not {}", options.windowOption,
                                                   nameOf(options.method)));
-    if (options.method != Method::ladder && options.debugRungs)
-        throw Error(ErrorCode::usage,
-                    fmt::format("--debug-image rungs is for --method auto, not {}", nameOf(options.method)));
+    if (options.method != Method::automatic && options.debugLayerMap)
+        throw Error(ErrorCode::usage, fmt::format("--debug-image layer-map is for --method auto, not {}",
+                                                  nameOf(options.method)));
 }
 
 void addReconstructionOptions(CLI::App& command, CommonOptions& options) {
@@ -121,15 +121,15 @@ void addReconstructionOptions(CLI::App& command, CommonOptions& options) {
         ->type_name("NAME");
     addWindowOptions(command, options);
     const auto debugImage = [&options](const std::string& text) {
-        if (text != "rungs")
-            throw CLI::ValidationError("--debug-image", fmt::format("'{}' is not rungs", text));
-        options.debugRungs = true;
+        if (text != "list_classify")
+            throw CLI::ValidationError("--debug-image", fmt::format("'{}' is not layer-map", text));
+        options.debugLayerMap = true;
     };
     command
-        .add_option_function<std::string>(
-            "--debug-image", debugImage,
-            "of auto: write OUTPUT.rungs.png, white where outputs came from the layer map, black where not")
-        ->type_name("rungs");
+        .add_option_function<std::string>("--debug-image", debugImage,
+                                          "of auto: write OUTPUT.layer-map.png, white where outputs came "
+                                          "from the layer map, black where not")
+        ->type_name("list_classify");
     command
         .add_option("--device", options.device, "auto, cpu, or part of a Vulkan device's name (default auto)")
         ->type_name("NAME");

@@ -21,12 +21,12 @@ struct CommonOptions {
     std::optional<Rect> crop; ///< pixels; unset: what the scene asks for
     // How to reconstruct.
     int outSpp = 128; ///< output samples a pixel
-    Method method = Method::ladder;
+    Method method = Method::automatic;
     WindowOptions window;
     std::string windowOption;                           ///< one of them that was given; empty: none
     std::string device = "auto";                        ///< auto, cpu, or part of a device's name
     std::uint64_t memoryBytes = std::uint64_t(1) << 30; ///< for dense samples and intermediate buffers
-    bool debugRungs = false;                            ///< write a picture of where the layer map served
+    bool debugLayerMap = false;                         ///< write a picture of where the layer map served
     // How to run.
     int threads = 0; ///< 0 = all cores
     bool quiet = false;

@@ -50,13 +50,13 @@ void addPictureOptions(CLI::App& command, PictureOptions& options) {
     addRunOptions(command, options.common);
 }
 
-std::string rungsPath(const PictureOptions& options) {
-    return std::filesystem::path(options.output).replace_extension(".rungs.png").string();
+std::string mapSharePath(const PictureOptions& options) {
+    return std::filesystem::path(options.output).replace_extension(".layer-map.png").string();
 }
 
 void checkOutputs(const PictureOptions& options) {
     for (const std::string& path : {options.output, options.png, options.common.statsPath,
-                                    options.common.debugRungs ? rungsPath(options) : ""})
+                                    options.common.debugLayerMap ? mapSharePath(options) : ""})
         if (!path.empty()) checkWritable(path);
 }
 

@@ -29,8 +29,8 @@ void addImageOptions(CLI::App& command, PictureOptions& options);
 /// SCENE, -o, those of addImageOptions and the common options but those of the reconstruction.
 void addPictureOptions(CLI::App& command, PictureOptions& options);
 
-/// Where --debug-image rungs writes to.
-std::string rungsPath(const PictureOptions& options);
+/// Where --debug-image layer-map writes to.
+std::string mapSharePath(const PictureOptions& options);
 /// Throws Error(resources) for outputs that cannot be written, before any work is done.
 void checkOutputs(const PictureOptions& options);
 

@@ -3,7 +3,7 @@
 #include "image/png.h"
 #include "reconstruct/auxiliary.h"
 #include "reconstruct/cpu_reconstructor.h"
-#include "reconstruct/stage_compare.h"
+#include "reconstruct/intermediates.h"
 #include "reconstruct/window.h"
 
 #include <bit>
@@ -11,7 +11,7 @@
 namespace slant::commands {
 namespace {
 
-std::string describe(const StageDifference& d, const std::vector<uint>& expected) {
+std::string describe(const IntermediateDifference& d, const std::vector<uint>& expected) {
     if (d.got.empty())
         return fmt::format("stage {} '{}' has {} words on the CPU and {} on the device", d.stage, d.name,
                            d.expectedWords, d.gotWords);
@@ -102,12 +102,12 @@ Image FieldPictures::picture(float slopeShift, Monitor& monitor, ReconstructRepo
 
 Image FieldPictures::pictureAndCompare(float slopeShift, Monitor& monitor, ReconstructReport& report) {
     ReconstructReport cpuReport;
-    StageRecorder expected;
+    IntermediateRecorder expected;
     onCpu_->picture(slopeShift, monitor, cpuReport, &expected);
-    StageComparer comparer(expected);
+    IntermediateComparer comparer(expected);
     Image image = prepared_->picture(slopeShift, monitor, report, &comparer);
     if (const auto difference = comparer.difference()) {
-        StageReader reader(difference->stage, difference->firstWord, difference->got.size());
+        IntermediateReader reader(difference->stage, difference->firstWord, difference->got.size());
         if (!difference->got.empty()) onCpu_->picture(slopeShift, monitor, cpuReport, &reader);
         throw Error(ErrorCode::outOfBounds, describe(*difference, reader.words()));
     }
@@ -135,7 +135,7 @@ void addDetails(nlohmann::ordered_json& details, const CommonOptions& common, co
     if (common.method != Method::box) {
         details["outSpp"] = common.outSpp;
         details["outputs"] = report.outputs;
-        if (common.method == Method::ladder) details["layered"] = report.layered;
+        if (common.method == Method::automatic) details["layered"] = report.fromMap;
         details["visibility"] = report.visibility;
         details["widened"] = report.widened;
         details["holes"] = report.holes;
@@ -151,10 +151,10 @@ void addDetails(nlohmann::ordered_json& details, const CommonOptions& common, co
 }
 
 void writeDebugImage(const PictureOptions& options, const Rect& frame, const ReconstructReport& report) {
-    if (!options.common.debugRungs) return;
+    if (!options.common.debugLayerMap) return;
     Image share(frame, {"Y"});
     share.pixels = report.mapShare;
-    writePng(rungsPath(options), toSrgb8(share));
+    writePng(mapSharePath(options), toSrgb8(share));
 }
 
 std::vector<StageStats> stagesOf(std::vector<StageStats> stages, const ReconstructReport& report) {

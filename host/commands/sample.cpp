@@ -26,8 +26,8 @@ void checkOptions(const FieldOptions& options) {
         if (!path.empty()) checkWritable(path);
 }
 
-FieldDetails detailsOf(const FieldOptions& options, const Scene& scene, const Camera& camera) {
-    FieldDetails details;
+FieldMetadata detailsOf(const FieldOptions& options, const Scene& scene, const Camera& camera) {
+    FieldMetadata details;
     details.film = {0, 0, scene.film.xResolution, scene.film.yResolution};
     details.filter = scene.filter;
     if (const CompoundLens* lens = camera.compoundLens()) {

@@ -24,7 +24,7 @@ struct ComputeRun {
     float slopeShift; ///< see PreparedField
     Monitor& monitor;
     ReconstructReport& report;
-    StageObserver* observer; ///< may be null
+    IntermediateObserver* observer; ///< may be null
     FilmBuffer film{field.frame, makeFilterTable(options.filter)};
     FilmPass filmPass{device, film};
     CommandList commands{device}; ///< empty between stages

@@ -17,11 +17,11 @@ class ComputePreparedField final : public PreparedField {
 public:
     ComputePreparedField(Device& device, const LightField& field, const ReconstructOptions& options)
         : device_(device), field_(field), options_(options) {
-        if (throughLens()) scenic_ = onSceneSide(field_);
+        if (compoundLens()) sceneSide_ = onSceneSide(field_);
     }
 
     Image picture(float slopeShift, Monitor& monitor, ReconstructReport& report,
-                  StageObserver* observer) override {
+                  IntermediateObserver* observer) override {
         checkFocus(options_, slopeShift);
         device_.resetPeakBytes();
         ComputeRun run{device_, seen(), options_, bins_, slopeShift, monitor, report, observer};
@@ -39,7 +39,7 @@ public:
     }
 
     void takeRadiances() override {
-        if (throughLens()) scenic_ = onSceneSide(field_);
+        if (compoundLens()) sceneSide_ = onSceneSide(field_);
         if (bins_.onDevice) {
             CommandList commands(device_);
             bins_.onDevice->takeRadiances(commands, seen());
@@ -48,13 +48,13 @@ public:
     }
 
 private:
-    bool throughLens() const { return usesOutputs(options_.method) && !field_.lensMap.empty(); }
-    const LightField& seen() const { return throughLens() ? scenic_ : field_; }
+    bool compoundLens() const { return usesOutputs(options_.method) && !field_.lensMap.empty(); }
+    const LightField& seen() const { return compoundLens() ? sceneSide_ : field_; }
 
     Device& device_;
     const LightField& field_;
     ReconstructOptions options_;
-    LightField scenic_; ///< empty but through a lens
+    LightField sceneSide_; ///< empty but through a lens
     ComputeBins bins_;
 };
 

@@ -1,7 +1,7 @@
 // Methods `full` and `auto` on the device: outputs from the bins, with apparent surfaces told apart; of
 // `auto`, only those that the layer map cannot serve.
 #include "compute/compute_methods.h"
-#include "compute/layer_passes.h"
+#include "compute/map_passes.h"
 #include "compute/output_passes.h"
 #include "reconstruct/cpu_chunk.h"
 #include "reconstruct/stage_timer.h"
@@ -22,15 +22,15 @@ public:
                                      run.options.lensScale, apertureOf(run.field, run.options))),
           listPasses_(run.device, pattern_, run.field.lensMap),
           outputPasses_(run.device, pattern_, run.field.lensMap) {
-        if (usesLayers(run.field, run.options.method)) layerPasses_.emplace(run.device, pattern_);
+        if (usesLayers(run.field, run.options.method)) mapPasses_.emplace(run.device, pattern_);
     }
 
     void fill() {
         const Rect& frame = run_.field.frame;
         const float reach = mapReach(bins_.grid, run_.options.lensScale);
-        const int texels = mapTexels(run_.field);
-        const int maxRows = layerPasses_ ? mapRows(frame, texels, reach, run_.options.memoryBytes / 2)
-                                         : std::numeric_limits<int>::max();
+        const int texels = mapTexelsPerPixel(run_.field);
+        const int maxRows = mapPasses_ ? mapRows(frame, texels, reach, run_.options.memoryBytes / 2)
+                                       : std::numeric_limits<int>::max();
         const Plan plan = planOutputs(frame, run_.film.filter(), pattern_, run_.maxSamples, maxRows);
         const int groupSize = pattern_.groupSize();
         Buffer dense(run_.device, TexelFormat::rgba32f,
@@ -38,8 +38,7 @@ public:
 
         run_.monitor.beginStage("reconstruct", plan.outputs, "outputs");
         for (const Band& band : plan.bands) {
-            if (layerPasses_)
-                makeMap(chooseMap(bins_.grid, band.region, texels, reach, spreadPerPx(pattern_)));
+            if (mapPasses_) makeMap(chooseMap(bins_.grid, band.region, texels, reach, spreadPerPx(pattern_)));
             for (int group = 0; group < int(pattern_.groups.size()); group += plan.groupsPerChunk) {
                 OutputPush push{};
                 push.grid = bins_.grid;
@@ -51,7 +50,7 @@ public:
                 push.firstOutput = group * groupSize;
                 push.brickTotal = bins_.brickTotal;
                 push.groupBits = pattern_.groupBits;
-                push.takenBits = pattern_.thinBits;
+                push.takenBits = pattern_.sparseBits;
                 chunk(band, push, int(push.groupCount) * groupSize, dense);
             }
         }
@@ -61,54 +60,54 @@ public:
 private:
     void makeMap(const MapLayout& layout) {
         StageTimer timer(run_.report, "layer_map", "texels");
-        layerPasses_->makeMap(run_.commands, bins_, layout, [&](ivec2 texel) {
+        mapPasses_->makeMap(run_.commands, bins_, layout, [&](ivec2 texel) {
             const Bins& bins = run_.binsOnCpu();
             std::vector<uint> bricks(bins.bricks.size());
             std::iota(bricks.begin(), bricks.end(), 0u);
             return resolveTexel({bins, bricks}, layout, texel);
         });
-        timer.items = layerPasses_->texels().texels();
+        timer.items = mapPasses_->texels().texels();
         timer.bytes = run_.device.peakBytes();
-        run_.observe("layer_map", layerPasses_->texels());
+        run_.observe("layer_map", mapPasses_->texels());
     }
 
     /// How many outputs of a chunk are made, and the lists that are left to be searched for in the bins.
     struct Work {
         OutputPasses::Left left;
-        std::uint64_t outputs = 0, layered = 0;
+        std::uint64_t outputs = 0, fromMap = 0;
     };
     /// Takes what the layer map serves of a chunk, if there is one; of each list, `missed` gets the pixels
     /// that it does not serve.
     Work takeFromMap(const Band& band, const DeviceLists& lists, const OutputPush& push, const Buffer& missed,
                      const Buffer& dense) {
-        ListRungs rungs(lists.start.texels() - 1);
-        if (layerPasses_) {
-            const Buffer buffer(run_.device, TexelFormat::r32ui, rungs.codes.size());
+        ListClasses classes(lists.start.texels() - 1);
+        if (mapPasses_) {
+            const Buffer buffer(run_.device, TexelFormat::r32ui, classes.codes.size());
             if (run_.observer) run_.commands.fill(dense, 0); // planes that nobody reads
-            layerPasses_->record(run_.commands, listPasses_, lists, outputPasses_.pattern(), push, buffer,
-                                 missed, dense);
+            mapPasses_->record(run_.commands, listPasses_, lists, outputPasses_.pattern(), push, buffer,
+                               missed, dense);
             run_.commands.run();
-            buffer.download(rungs.codes);
-            missed.download(rungs.missed);
-            run_.observe("rungs", buffer);
+            buffer.download(classes.codes);
+            missed.download(classes.missed);
+            run_.observe("list_classes", buffer);
             run_.observe("missed", missed);
-            addMapShare(run_.report.mapShare, run_.field.frame, band, rungs, pattern_.groups.size());
+            addMapShare(run_.report.mapShare, run_.field.frame, band, classes, pattern_.groups.size());
         } else {
             run_.commands.fill(missed, ~0u);
         }
         Work work;
         const ivec2 tiles = push.outputs.tileCount;
-        for (uint list = 0; list < rungs.codes.size(); ++list) {
+        for (uint list = 0; list < classes.codes.size(); ++list) {
             const uint tile = list % uint(tiles.x * tiles.y);
             const ivec2 place(tile % tiles.x, tile / tiles.x);
             const std::uint64_t inside = tilePixels(push.outputs.regionSize - kTileSize * place);
-            const std::uint64_t missedInside = inside & rungs.missedOf(list);
-            const bool thin = (rungs.codes[list] & kThinRung) != 0;
-            const int bits = thin ? pattern_.thinBits : pattern_.groupBits;
+            const std::uint64_t missedInside = inside & classes.missedOf(list);
+            const bool sparse = (classes.codes[list] & kSparseBit) != 0;
+            const int bits = sparse ? pattern_.sparseBits : pattern_.groupBits;
             work.outputs += std::uint64_t(std::popcount(inside)) << bits;
-            work.layered += std::uint64_t(std::popcount(inside & ~missedInside)) << bits;
+            work.fromMap += std::uint64_t(std::popcount(inside & ~missedInside)) << bits;
             if (missedInside != 0)
-                (thin ? work.left.thin : work.left.whole)
+                (sparse ? work.left.sparse : work.left.whole)
                     .emplace_back(place.x, place.y, list / uint(tiles.x * tiles.y), list);
         }
         return work;
@@ -132,7 +131,7 @@ private:
             const OutputPasses::Result result =
                 outputPasses_.run(run_.commands, listPasses_, bins_, lists, work.left, missed, push, dense);
             if (!result.overflowed.empty()) finishOnCpu(band, push, result.overflowed, dense);
-            report.layered += work.layered;
+            report.fromMap += work.fromMap;
             report.visibility += result.visibility;
             report.widened += result.widened;
             report.holes += result.holes;
@@ -162,7 +161,7 @@ private:
     OutputPattern pattern_;
     ListPasses listPasses_;
     OutputPasses outputPasses_;
-    std::optional<LayerPasses> layerPasses_;
+    std::optional<MapPasses> mapPasses_;
 };
 
 } // namespace

@@ -7,8 +7,8 @@
 
 namespace slant {
 
-/// kThroughLens of lib/output_pattern.glsl.
-inline std::array<std::uint32_t, 1> throughLens(const LensMap& lens) {
+/// kCompoundLens of lib/output_pattern.glsl.
+inline std::array<std::uint32_t, 1> compoundLens(const LensMap& lens) {
     return {lens.empty() ? 0u : 1u};
 }
 

@@ -18,8 +18,8 @@ Buffer uploadBoxes(Device& device, const std::vector<LensBox>& groups) {
 } // namespace
 
 ListPasses::ListPasses(Device& device, const OutputPattern& pattern, const LensMap& lens)
-    : device_(device), pattern_(pattern), lens_(lens), count_(device, "list_count", throughLens(lens)),
-      emit_(device, "list_emit", throughLens(lens)), start_(device, "list_start"),
+    : device_(device), pattern_(pattern), lens_(lens), count_(device, "list_count", compoundLens(lens)),
+      emit_(device, "list_emit", compoundLens(lens)), start_(device, "list_start"),
       gather_(device, "list_gather"), scan_(device, 1), sort_(device, 1),
       lensBoxes_(uploadBoxes(device, pattern.groups)) {}
 

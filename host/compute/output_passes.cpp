@@ -8,8 +8,8 @@
 namespace slant {
 
 OutputPasses::OutputPasses(Device& device, const OutputPattern& pattern, const LensMap& lens)
-    : device_(device), nearest_(device, "reconstruct", throughLens(lens)),
-      visibility_(device, "visibility", throughLens(lens)),
+    : device_(device), nearest_(device, "reconstruct", compoundLens(lens)),
+      visibility_(device, "visibility", compoundLens(lens)),
       pattern_(device, TexelFormat::rgba32ui, pattern.entries.size()),
       aperture_(device, TexelFormat::r32f, pattern.aperture.table().size()),
       lensMap_(lensBuffer(device, lens)), counters_(device, TexelFormat::r32ui, kCounters),
@@ -37,7 +37,8 @@ OutputPasses::Result OutputPasses::run(CommandList& commands, ListPasses& listPa
     reserve(dense.texels());
     commands.fill(counters_, 0);
     push.radiusPx = bins.grid.radiusPx;
-    for (const auto& [items, bits] : {std::pair(&left.whole, push.groupBits), {&left.thin, push.takenBits}}) {
+    for (const auto& [items, bits] :
+         {std::pair(&left.whole, push.groupBits), {&left.sparse, push.takenBits}}) {
         push.count = uint(items->size());
         push.takenBits = bits;
         Buffer buffer(device_, TexelFormat::rgba32ui, items->size());

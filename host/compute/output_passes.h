@@ -19,7 +19,7 @@ public:
 
     /// Lists to search for (tile x, y, lens group, list): all their outputs, or 2^push.takenBits of a group.
     struct Left {
-        std::vector<uvec4> whole, thin;
+        std::vector<uvec4> whole, sparse;
     };
 
     /// Fills `dense` (planes of region pixels) for the lists `left`, in these the pixels

@@ -22,7 +22,7 @@ public:
         : run_(run), samples_(windowSamples(run.field)), search_(windowSearch(run.field, run.options.window)),
           pattern_(makeOutputPattern(run.options.outputsPerPixel, 0, run.options.lensScale,
                                      apertureOf(run.field, run.options))),
-          pass_(run.device, "window", throughLens(run.field.lensMap)),
+          pass_(run.device, "window", compoundLens(run.field.lensMap)),
           positions_(uploaded(run.device, samples_.positions)),
           radiances_(uploaded(run.device, samples_.radiances)),
           pixelStart_(run.device, TexelFormat::r32ui, samples_.pixelStart.size()),

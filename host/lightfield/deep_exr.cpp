@@ -27,7 +27,7 @@ namespace {
 
 constexpr int kVersion = 1;
 /// The least that a sample takes before compression: the required channels, three of them as halves at most.
-constexpr std::uint64_t kLeastSampleBytes = 22;
+constexpr std::uint64_t kMinSampleBytes = 22;
 
 struct SlopeConstant {
     const char* name;
@@ -90,7 +90,7 @@ const Attribute* find(const Imf::Header& header, const std::string& name) {
 }
 
 void requireBytes(const InputFile& file, std::uint64_t pixels, std::uint64_t samples) {
-    if ((pixels * sizeof(unsigned) + samples * kLeastSampleBytes) / kLargestRatio > file.size())
+    if ((pixels * sizeof(unsigned) + samples * kMinSampleBytes) / kLargestRatio > file.size())
         throw badInput({file.path()}, "{} bytes cannot hold {} pixels and {} samples", file.size(), pixels,
                        samples);
 }
@@ -135,10 +135,10 @@ void readAttributes(const FileLocation& where, const Imf::Header& header, bool s
         const std::string name = i.name(), prefix = "slant:";
         if (!name.starts_with(prefix)) continue;
         if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&i.attribute()))
-            setDetail(file.field, file.details, where, name.substr(prefix.size()), text->value());
+            setMetadata(file.field, file.details, where, name.substr(prefix.size()), text->value());
         else if (const auto* number = dynamic_cast<const Imf::FloatAttribute*>(&i.attribute()))
-            setDetail(file.field, file.details, where, name.substr(prefix.size()),
-                      fmt::to_string(number->value()));
+            setMetadata(file.field, file.details, where, name.substr(prefix.size()),
+                        fmt::to_string(number->value()));
     }
 }
 
@@ -234,7 +234,7 @@ void readSamples(const FileLocation& where, Imf::DeepScanLineInputFile& file, Fi
 
 // ---------------------------------------------------------------- writing
 
-Imf::Header makeHeader(const LightField& field, const FieldDetails& details,
+Imf::Header makeHeader(const LightField& field, const FieldMetadata& details,
                        const std::vector<DeepChannel>& channels) {
     Imf::Header header(toBox(details.film), toBox(field.bounds));
     header.setType(Imf::DEEPSCANLINE);
@@ -256,7 +256,7 @@ Imf::Header makeHeader(const LightField& field, const FieldDetails& details,
     return header;
 }
 
-void encode(Imf::OStream& stream, const LightField& field, const FieldDetails& details, Monitor& monitor) {
+void encode(Imf::OStream& stream, const LightField& field, const FieldMetadata& details, Monitor& monitor) {
     std::vector<DeepChannel> channels(kSampleChannels.begin(), kSampleChannels.end());
     if (!hasOwnSlopes(field)) channels.pop_back();
     std::vector<DeepChannel> all = channels;
@@ -308,7 +308,7 @@ FieldFile readDeepExr(const std::string& path, Monitor& monitor) {
     return result;
 }
 
-void writeDeepExr(const std::string& path, const LightField& field, const FieldDetails& details,
+void writeDeepExr(const std::string& path, const LightField& field, const FieldMetadata& details,
                   Monitor& monitor) {
     AtomicFile file(path);
     OutputStream stream(file, path);

@@ -10,7 +10,7 @@ namespace slant {
 FieldFile readDeepExr(const std::string& path, Monitor& monitor);
 
 /// Uncompressed, 32-bit floats; reading gives the same bits again, albedo and normals included.
-void writeDeepExr(const std::string& path, const LightField& field, const FieldDetails& details,
+void writeDeepExr(const std::string& path, const LightField& field, const FieldMetadata& details,
                   Monitor& monitor);
 
 } // namespace slant

@@ -77,7 +77,7 @@ FieldFile readField(const std::string& path, Monitor& monitor) {
     throw badInput({path}, "is no light field: neither OpenEXR nor TLFR, as there is no {}{}", body, header);
 }
 
-void writeField(const std::string& path, const LightField& field, const FieldDetails& details,
+void writeField(const std::string& path, const LightField& field, const FieldMetadata& details,
                 Monitor& monitor) {
     const FieldFormat format = formatForName(path);
     if (format == FieldFormat::deepExr)
@@ -86,7 +86,7 @@ void writeField(const std::string& path, const LightField& field, const FieldDet
         writeTlfr(path, field, details, format == FieldFormat::tlfrText, monitor);
 }
 
-void checkExtent(const FileLocation& location, const LightField& field, const FieldDetails& details) {
+void checkExtent(const FileLocation& location, const LightField& field, const FieldMetadata& details) {
     for (const auto& [name, rect] : {std::pair("samples", field.bounds), {"film", details.film}})
         if (rect.empty() || !withinLimits(rect))
             throw badInput(location, "the {} span {} pixels, which is not something within +-{}", name,

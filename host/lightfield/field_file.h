@@ -2,7 +2,7 @@
 // (tlfr.h). README, "Light field files", describes both for those who write them.
 #pragma once
 #include "base/monitor.h"
-#include "lightfield/field_details.h"
+#include "lightfield/field_metadata.h"
 #include "lightfield/lightfield.h"
 
 #include <span>
@@ -15,7 +15,7 @@ enum class FieldFormat { deepExr, tlfrBinary, tlfrText };
 struct FieldFile {
     FieldFormat format = FieldFormat::deepExr;
     LightField field; ///< as it stands in the file: not sanitized
-    FieldDetails details;
+    FieldMetadata details;
     std::uint64_t movingSamples = 0; ///< with a motion that is not zero, which is not kept
 };
 
@@ -31,13 +31,13 @@ FieldFile readField(const std::string& path, Monitor& monitor);
 
 /// In the format of the name's extension. Advances the monitor by samples. Throws Error(resources) if it
 /// cannot be written.
-void writeField(const std::string& path, const LightField& field, const FieldDetails& details,
+void writeField(const std::string& path, const LightField& field, const FieldMetadata& details,
                 Monitor& monitor);
 
 /// The extent of a field before its samples are there. Throws Error(badInput) unless sizes are within the
 /// limits, the frame lies within the bounds, and c1 <= 0 (nearer is smaller) and c2 are finite. Of samples a
 /// pixel it knows only one number for all.
-void checkExtent(const FileLocation& location, const LightField& field, const FieldDetails& details);
+void checkExtent(const FileLocation& location, const LightField& field, const FieldMetadata& details);
 
 /// As setSampleCounts. Throws Error(badInput) where there are too many, or none at all.
 void takeSampleCounts(const FileLocation& location, LightField& field, std::span<const std::uint32_t> counts);

@@ -94,11 +94,11 @@ bool isThinLens(const LightField& field) {
 }
 
 LightField onSceneSide(const LightField& field) {
-    LightField scenic = field;
-    parallelFor(0, scenic.samples.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
+    LightField sceneSide = field;
+    parallelFor(0, sceneSide.samples.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
-            LightFieldSample& s = scenic.samples[i];
-            const ScenicPlace place = field.lensMap.at({s.x, s.y}, {s.u, s.v});
+            LightFieldSample& s = sceneSide.samples[i];
+            const SceneRay place = field.lensMap.at({s.x, s.y}, {s.u, s.v});
             s.x = place.xy.x;
             s.y = place.xy.y;
             s.u = place.uv.x;
@@ -115,7 +115,7 @@ LightField onSceneSide(const LightField& field) {
             }
         }
     });
-    return scenic;
+    return sceneSide;
 }
 
 FieldDefects sanitize(LightField& field) {

@@ -124,7 +124,7 @@ private:
             film_ = rect(value);
         } else if (name == "lensMap") {
             file_.field.lensMap = lensMapOf(where_, floats(value));
-        } else if (!setDetail(file_.field, file_.details, where_, name, value)) {
+        } else if (!setMetadata(file_.field, file_.details, where_, name, value)) {
             throw badInput(where_, "'slant:{}' is not known", name);
         }
     }
@@ -188,7 +188,7 @@ std::string oneLine(std::string text) {
     return text + '\n';
 }
 
-std::string headerText(const LightField& field, const FieldDetails& details, bool text) {
+std::string headerText(const LightField& field, const FieldMetadata& details, bool text) {
     std::string header =
         fmt::format("Version 1.3\nWidth {}\nHeight {}\nSamples per pixel {}\nMotion model: perspective\n"
                     "CoC coefficients (coc radius = C0/w+C1): {},{}\nEncoding = {}\n{}\n",
@@ -227,7 +227,7 @@ FieldFile readTlfr(const std::string& bodyPath, const std::string& headerPath, M
     return file;
 }
 
-void writeTlfr(const std::string& path, const LightField& field, const FieldDetails& details, bool text,
+void writeTlfr(const std::string& path, const LightField& field, const FieldMetadata& details, bool text,
                Monitor& monitor) {
     if (hasOwnSlopes(field))
         throw Error(

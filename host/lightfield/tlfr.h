@@ -3,8 +3,8 @@
 //
 // Its slope constants C0, C1 are our C1, C2. Of a sample's sixteen numbers z/w, a, dwdx and dwdy are not
 // read, and written as 0 (a as alpha); alpha is 0 where w is infinite, else 1. What the format does not have,
-// where the frame lies among the pixels and FieldDetails, stands in lines "slant:..." after the header's last
-// one.
+// where the frame lies among the pixels and FieldMetadata, stands in lines "slant:..." after the header's
+// last one.
 #pragma once
 #include "lightfield/field_file.h"
 
@@ -15,7 +15,7 @@ FieldFile readTlfr(const std::string& bodyPath, const std::string& headerPath, M
 
 /// Body `path` and `path`.header; in a text, numbers are as short as reading the same bits again allows.
 /// Albedo and normals are left out; slopes other than C1/w + C2 are an Error(usage).
-void writeTlfr(const std::string& path, const LightField& field, const FieldDetails& details, bool text,
+void writeTlfr(const std::string& path, const LightField& field, const FieldMetadata& details, bool text,
                Monitor& monitor);
 
 } // namespace slant

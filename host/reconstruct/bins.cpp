@@ -48,23 +48,23 @@ Order sortedSamples(const LightField& field, const Rect& region, float marginPx,
 struct BrickBounds {
     uint key = kNotBinned; ///< of the brick
     ivec2 first{255}, last{0};
-    float slopeMin = 0, slopeMax = 0, narrowing = 0;
+    float slopeMin = 0, slopeMax = 0, radiusRatio = 0;
 
-    BrickBounds(uint brickKey, float slope, float ownNarrowing)
-        : key(brickKey), slopeMin(slope), slopeMax(slope), narrowing(ownNarrowing) {}
+    BrickBounds(uint brickKey, float slope, float ownRatio)
+        : key(brickKey), slopeMin(slope), slopeMax(slope), radiusRatio(ownRatio) {}
 
-    void add(ivec2 cell, float slope, float ownNarrowing) {
+    void add(ivec2 cell, float slope, float ownRatio) {
         first = glm::min(first, cell);
         last = glm::max(last, cell);
         slopeMin = std::min(slopeMin, slope);
         slopeMax = std::max(slopeMax, slope);
-        narrowing = std::min(narrowing, ownNarrowing);
+        radiusRatio = std::min(radiusRatio, ownRatio);
     }
 
     Brick brick(const GridLayout& grid) const {
         const ivec2 place(int(key) % grid.brickCount.x, int(key) / grid.brickCount.x % grid.brickCount.y);
         const ivec2 low = place * grid.cellsPerBrick + first, extent = last - first;
-        const uint radius = uint(glm::ceil(kRadiusSteps / narrowing));
+        const uint radius = uint(glm::ceil(kRadiusSteps / radiusRatio));
         return {uint(low.x | low.y << 16), uint(extent.x | extent.y << 6) | radius << 12, slopeMin, slopeMax};
     }
 };
@@ -89,17 +89,17 @@ Bins binSamples(const LightField& field, const BinScope& scope) {
         const uint key = order.keys[record], cell = key % cellsPerBrick;
         const LightFieldSample& s = field.samples[order.samples[record]];
         const vec2 p = pinholePosition(s);
-        const float narrowing = narrowingAt(density, p, s.slope, bins.grid.radiusPx);
+        const float radiusRatio = radiusRatioAt(density, p, s.slope, bins.grid.radiusPx);
         if (bricks.empty() || key / cellsPerBrick != bricks.back().key)
-            bricks.emplace_back(key / cellsPerBrick, s.slope, narrowing);
+            bricks.emplace_back(key / cellsPerBrick, s.slope, radiusRatio);
         bricks.back().add(ivec2(int(cell) % bins.grid.cellsPerBrick, int(cell) / bins.grid.cellsPerBrick),
-                          s.slope, narrowing);
+                          s.slope, radiusRatio);
         // Cells up to this one begin here at the latest.
         bins.cellStart.resize((bricks.size() - 1) * cellsPerBrick + cell + 1, uint(record));
         bins.positions.emplace_back(p, s.slope,
                                     visibilityWeight(stopped, bins.grid, occlusion, p, s.slope,
-                                                     narrowing / glm::sqrt(1.f + s.areaExcess)));
-        bins.radiances.emplace_back(s.r, s.g, s.b, narrowing);
+                                                     radiusRatio / glm::sqrt(1.f + s.areaExcess)));
+        bins.radiances.emplace_back(s.r, s.g, s.b, radiusRatio);
     }
     for (const BrickBounds& bounds : bricks) bins.bricks.push_back(bounds.brick(bins.grid));
     bins.cellStart.resize(bins.bricks.size() * cellsPerBrick + 1, uint(count));

@@ -23,7 +23,7 @@ struct Bins {
     std::vector<uint> cellStart; ///< bricks * cellsPerBrick^2 + 1: first record of each cell
     std::vector<vec4> positions; ///< records in cell order, in sample order within a cell: p.x, p.y, slope,
                                  ///< visibilityWeight
-    std::vector<vec4> radiances; ///< r, g, b, narrowingAt
+    std::vector<vec4> radiances; ///< r, g, b, radiusRatioAt
     std::vector<uint> samples;   ///< of each record: its index in the field
 };
 

@@ -26,11 +26,11 @@ inline ivec2 cellAt(const GridLayout& grid, vec2 place) {
 }
 
 /// Calls visit for the samples that reproject to within `radius` of the output, or less for those whose own
-/// radius is less than R: down to 1 / mostNarrowing of it. They come in the order of their bricks: front to
+/// radius is less than R: down to 1 / maxRadiusRatio of it. They come in the order of their bricks: front to
 /// back, up to the width of a bucket; until visit returns false or hides(brick) says that what was met so far
 /// hides a brick and all that follow. Returns loop steps.
 template <typename Visit, typename Hides>
-int forEachCandidate(const SearchContext& context, const Output& output, float radius, float mostNarrowing,
+int forEachCandidate(const SearchContext& context, const Output& output, float radius, float maxRadiusRatio,
                      Visit&& visit, Hides&& hides) {
     const GridLayout& grid = context.bins.grid;
     const int side = grid.cellsPerBrick;
@@ -39,7 +39,7 @@ int forEachCandidate(const SearchContext& context, const Output& output, float r
     int iterations = 0;
     for (const uint id : context.bricks) {
         const Brick& brick = context.bins.bricks[id];
-        const float ownRadius = radius * glm::max(widestRadius(brick), 1.f / mostNarrowing);
+        const float ownRadius = radius * glm::max(widestRadius(brick), 1.f / maxRadiusRatio);
         const vec2 reach = ownRadius * grid.invCell * output.extent;
         const vec2 a = brick.slopeMin * shear, b = brick.slopeMax * shear;
         const ivec2 first = glm::max(cellAt(grid, center - glm::max(a, b) - reach), firstCell(brick));
@@ -56,14 +56,14 @@ int forEachCandidate(const SearchContext& context, const Output& output, float r
             for (uint record = begin; record < end; ++record) {
                 const vec4& position = context.bins.positions[record];
                 vec2 offset = vec2(position.x, position.y) + position.z * output.uv - output.xy;
-                if (output.throughLens) offset = onFilm(output, offset);
+                if (output.compoundLens) offset = onFilm(output, offset);
                 const float distance2 = offset.x * offset.x + offset.y * offset.y;
                 if (!(distance2 < ownRadius * ownRadius)) continue;
                 const vec4& radiance = context.bins.radiances[record];
-                const float narrowing = glm::min(radiance.w, mostNarrowing);
-                const float narrowed2 = distance2 * (narrowing * narrowing);
-                if (narrowed2 < radius * radius &&
-                    !visit(Candidate{offset, narrowed2, position.z, position.w, radiance}))
+                const float radiusRatio = glm::min(radiance.w, maxRadiusRatio);
+                const float scaled2 = distance2 * (radiusRatio * radiusRatio);
+                if (scaled2 < radius * radius &&
+                    !visit(Candidate{offset, scaled2, position.z, position.w, radiance}))
                     return iterations;
             }
         }

@@ -22,7 +22,7 @@ TileLists CpuChunk::makeLists(float marginPx, std::vector<float>& lensTiles) con
     if (lens_.empty()) return makeTileLists(bins_, layout_, groups_, marginPx);
     lensTiles = lensTileBounds(lens_, pattern_, firstGroup_, groups_.size(), bins_.grid, layout_, marginPx);
     return makeTileLists(bins_, layout_, groups_.size(), [&](const Brick& brick, std::size_t group) {
-        return tilesThroughLens(brick, bins_.grid, layout_, lensTiles, group);
+        return tilesOfCompoundLens(brick, bins_.grid, layout_, lensTiles, group);
     });
 }
 
@@ -34,7 +34,7 @@ SearchContext CpuChunk::contextOf(const TileLists& in, std::size_t list) const {
 void CpuChunk::run(Monitor& monitor, ReconstructReport& report) {
     lists = makeLists(2 * bins_.grid.radiusPx, lensBounds);
     const std::size_t tiles = std::size_t(layout_.tileCount.x) * layout_.tileCount.y;
-    rungs = ListRungs(tiles * groups_.size());
+    classes = ListClasses(tiles * groups_.size());
     parallelFor(0, tiles, 1, [&](std::size_t first, std::size_t last) {
         Counts counts;
         std::uint64_t samples = 0;
@@ -43,7 +43,7 @@ void CpuChunk::run(Monitor& monitor, ReconstructReport& report) {
         monitor.advance(samples);
     });
     report.outputs += counts_.outputs;
-    report.layered += counts_.layered;
+    report.fromMap += counts_.fromMap;
     report.visibility += counts_.visibility;
     report.widened += counts_.holes.size();
     widen(report);
@@ -60,17 +60,18 @@ CpuChunk::Slot CpuChunk::slotAt(ivec2 position, int output) const {
 
 Output CpuChunk::at(const Slot& slot) const {
     Output output = outputAt(slot.pixel, firstOutput_ + slot.output, pattern_, layout_.seed);
-    if (!lens_.empty()) seeThrough(lens_, output);
+    if (!lens_.empty()) toSceneSide(lens_, output);
     return output;
 }
 
-int CpuChunk::takenOf(const Rung& rung) const {
-    return 1 << (rung.thin ? pattern_.thinBits : pattern_.groupBits);
+int CpuChunk::takenOf(const ListClass& listClass) const {
+    return 1 << (listClass.sparse ? pattern_.sparseBits : pattern_.groupBits);
 }
 
-int CpuChunk::memberAt(std::size_t group, int rank, const Rung& rung) const {
+int CpuChunk::memberAt(std::size_t group, int rank, const ListClass& listClass) const {
     const int first = int(group) << pattern_.groupBits;
-    return first + (rung.thin ? inOrder(pattern_.entries[std::size_t(firstOutput_ + first + rank)]) : rank);
+    return first +
+           (listClass.sparse ? inOrder(pattern_.entries[std::size_t(firstOutput_ + first + rank)]) : rank);
 }
 
 void CpuChunk::store(const Slot& slot, const Output& output, const Reconstructed& result) {
@@ -86,27 +87,27 @@ std::uint64_t CpuChunk::runTile(std::size_t tile, Counts& counts) {
     const std::size_t tiles = std::size_t(layout_.tileCount.x) * layout_.tileCount.y;
     for (std::size_t group = 0; group < groups_.size(); ++group) {
         const std::size_t list = group * tiles + tile;
-        Rung rung;
+        ListClass listClass;
         std::uint64_t missed = ~0ull;
         if (map_)
-            rung = rungOf(bins_, contextOf(lists, list).bricks, groups_[group], pattern_.lensScale,
-                          map_->layout);
-        if (!rung.clusters.empty()) missed = takeFromMap(group, corner, rung);
-        rungs.set(list, rung, missed);
-        const auto taken = std::uint64_t(takenOf(rung));
+            listClass = classOfList(bins_, contextOf(lists, list).bricks, groups_[group], pattern_.lensScale,
+                                    map_->layout);
+        if (!listClass.clusters.empty()) missed = takeFromMap(group, corner, listClass);
+        classes.set(list, listClass, missed);
+        const auto taken = std::uint64_t(takenOf(listClass));
         counts.outputs += taken * std::uint64_t(std::popcount(inside));
-        counts.layered += taken * std::uint64_t(std::popcount(inside & ~missed));
+        counts.fromMap += taken * std::uint64_t(std::popcount(inside & ~missed));
         for (int y = corner.y; y < end.y; ++y)
             for (int x = corner.x; x < end.x; ++x)
-                if ((missed >> tileBit({x, y}) & 1) != 0) searchPixel(group, {x, y}, rung, counts);
+                if ((missed >> tileBit({x, y}) & 1) != 0) searchPixel(group, {x, y}, listClass, counts);
     }
     return std::uint64_t(std::popcount(inside)) * std::uint64_t(outputCount_);
 }
 
-void CpuChunk::searchPixel(std::size_t group, ivec2 position, const Rung& rung, Counts& counts) {
+void CpuChunk::searchPixel(std::size_t group, ivec2 position, const ListClass& listClass, Counts& counts) {
     for (int rank = 0; rank < pattern_.groupSize(); ++rank) {
-        const Slot slot = slotAt(position, memberAt(group, rank, rung));
-        if (rank < takenOf(rung))
+        const Slot slot = slotAt(position, memberAt(group, rank, listClass));
+        if (rank < takenOf(listClass))
             runSlot(slot, counts);
         else
             dense.samples[slot.sample] = vec4(0, 0, 0, kLeftOut);
@@ -115,34 +116,34 @@ void CpuChunk::searchPixel(std::size_t group, ivec2 position, const Rung& rung, 
 
 /// The pixels of which an output meets nothing, a bit each. Which they are must not depend on bands, so
 /// positions outside the region are looked at too.
-std::uint64_t CpuChunk::takeFromMap(std::size_t group, ivec2 corner, const Rung& rung) {
+std::uint64_t CpuChunk::takeFromMap(std::size_t group, ivec2 corner, const ListClass& listClass) {
     std::uint64_t missed = 0;
     for (int y = corner.y; y < corner.y + kTileSize; ++y)
         for (int x = corner.x; x < corner.x + kTileSize; ++x)
-            if (!takePixel(group, ivec2(x, y), rung)) missed |= 1ull << tileBit({x, y});
-    return missed != 0 && rung.clusters.size() > kPartClusters ? ~0ull : missed;
+            if (!takePixel(group, ivec2(x, y), listClass)) missed |= 1ull << tileBit({x, y});
+    return missed != 0 && listClass.clusters.size() > kPartClusters ? ~0ull : missed;
 }
 
-bool CpuChunk::takePixel(std::size_t group, ivec2 position, const Rung& rung) {
+bool CpuChunk::takePixel(std::size_t group, ivec2 position, const ListClass& listClass) {
     const bool inRegion = position.x < layout_.regionSize.x && position.y < layout_.regionSize.y;
-    const int taken = takenOf(rung);
+    const int taken = takenOf(listClass);
     vec3 sum(0);
-    for (int rank = 0; rank < (rung.sharp ? pattern_.groupSize() : taken); ++rank) {
-        const int k = memberAt(group, rank, rung);
+    for (int rank = 0; rank < (listClass.inFocus ? pattern_.groupSize() : taken); ++rank) {
+        const int k = memberAt(group, rank, listClass);
         const Slot slot = slotAt(position, k);
         if (rank >= taken) {
             if (inRegion) dense.samples[slot.sample] = vec4(0, 0, 0, kLeftOut);
             continue;
         }
         const Output own = at(slot);
-        const vec2 place = rung.sharp ? own.xy : vec2(slot.pixel) + 0.5f;
+        const vec2 place = listClass.inFocus ? own.xy : vec2(slot.pixel) + 0.5f;
         const std::optional<vec3> rgb =
-            lookThrough(*map_, rung.clusters, place, vec2(lensPoints_[std::size_t(firstOutput_ + k)]));
+            lookThrough(*map_, listClass.clusters, place, vec2(lensPoints_[std::size_t(firstOutput_ + k)]));
         if (!rgb) return false;
         sum += *rgb;
-        if (rung.sharp && inRegion) dense.samples[slot.sample] = vec4(*rgb, own.positionCode);
+        if (listClass.inFocus && inRegion) dense.samples[slot.sample] = vec4(*rgb, own.positionCode);
     }
-    if (!rung.sharp && inRegion)
+    if (!listClass.inFocus && inRegion)
         dense.samples[slotAt(position, int(group) * pattern_.groupSize()).sample] =
             vec4(sum / float(taken), kWholePixel);
     return true;
@@ -176,7 +177,7 @@ void CpuChunk::redo(std::span<const uint> indices, ReconstructReport& report) {
 void CpuChunk::add(const Counts& counts) {
     const std::lock_guard lock(mutex_);
     counts_.outputs += counts.outputs;
-    counts_.layered += counts.layered;
+    counts_.fromMap += counts.fromMap;
     counts_.visibility += counts.visibility;
     counts_.holes.insert(counts_.holes.end(), counts.holes.begin(), counts.holes.end());
 }

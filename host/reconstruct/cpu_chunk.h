@@ -2,8 +2,8 @@
 #pragma once
 #include "base/monitor.h"
 #include "reconstruct/film_buffer.h"
-#include "reconstruct/layers.h"
 #include "reconstruct/lens_tiles.h"
+#include "reconstruct/map_lookup.h"
 #include "reconstruct/plan.h"
 #include "reconstruct/search.h"
 
@@ -30,7 +30,7 @@ public:
     DenseSamples dense;
     TileLists lists;
     std::vector<float> lensBounds; ///< that the lists are from, through a lens map
-    ListRungs rungs{0};
+    ListClasses classes{0};
 
 private:
     /// Where an output is stored, and in which list its bricks stand.
@@ -40,7 +40,7 @@ private:
         int output; ///< within the chunk
     };
     struct Counts {
-        std::uint64_t outputs = 0, layered = 0, visibility = 0;
+        std::uint64_t outputs = 0, fromMap = 0, visibility = 0;
         std::vector<Slot> holes;
     };
 
@@ -48,13 +48,13 @@ private:
     SearchContext contextOf(const TileLists& in, std::size_t list) const;
     Slot slotAt(ivec2 position, int output) const;
     Output at(const Slot& slot) const;
-    int takenOf(const Rung& rung) const; ///< outputs of a group that are made
-    int memberAt(std::size_t group, int rank, const Rung& rung) const;
+    int takenOf(const ListClass& listClass) const; ///< outputs of a group that are made
+    int memberAt(std::size_t group, int rank, const ListClass& listClass) const;
     void store(const Slot& slot, const Output& output, const Reconstructed& result);
     std::uint64_t runTile(std::size_t tile, Counts& counts); ///< dense samples of it
-    std::uint64_t takeFromMap(std::size_t group, ivec2 corner, const Rung& rung);
-    bool takePixel(std::size_t group, ivec2 position, const Rung& rung);
-    void searchPixel(std::size_t group, ivec2 position, const Rung& rung, Counts& counts);
+    std::uint64_t takeFromMap(std::size_t group, ivec2 corner, const ListClass& listClass);
+    bool takePixel(std::size_t group, ivec2 position, const ListClass& listClass);
+    void searchPixel(std::size_t group, ivec2 position, const ListClass& listClass, Counts& counts);
     void runSlot(const Slot& slot, Counts& counts);
     void add(const Counts& counts);
     void widen(ReconstructReport& report);

@@ -18,7 +18,7 @@ struct CpuRun {
     float slopeShift;                     ///< see PreparedField
     Monitor& monitor;
     ReconstructReport& report;
-    StageObserver* observer; ///< may be null
+    IntermediateObserver* observer; ///< may be null
     FilmBuffer film;
 
     template <typename T>

@@ -16,11 +16,11 @@ class CpuPreparedField final : public PreparedField {
 public:
     CpuPreparedField(const LightField& field, const ReconstructOptions& options)
         : field_(field), options_(options) {
-        if (throughLens()) scenic_ = onSceneSide(field_);
+        if (compoundLens()) sceneSide_ = onSceneSide(field_);
     }
 
     Image picture(float slopeShift, Monitor& monitor, ReconstructReport& report,
-                  StageObserver* observer) override {
+                  IntermediateObserver* observer) override {
         checkFocus(options_, slopeShift);
         CpuRun run{seen(),  options_, bins_,    slopeShift,
                    monitor, report,   observer, FilmBuffer(field_.frame, makeFilterTable(options_.filter))};
@@ -30,17 +30,17 @@ public:
     }
 
     void takeRadiances() override {
-        if (throughLens()) scenic_ = onSceneSide(field_);
+        if (compoundLens()) sceneSide_ = onSceneSide(field_);
         if (bins_) bins_->takeRadiances(seen());
     }
 
 private:
-    bool throughLens() const { return usesOutputs(options_.method) && !field_.lensMap.empty(); }
-    const LightField& seen() const { return throughLens() ? scenic_ : field_; }
+    bool compoundLens() const { return usesOutputs(options_.method) && !field_.lensMap.empty(); }
+    const LightField& seen() const { return compoundLens() ? sceneSide_ : field_; }
 
     const LightField& field_;
     ReconstructOptions options_;
-    LightField scenic_; ///< empty but through a lens
+    LightField sceneSide_; ///< empty but through a lens
     std::optional<FocusedBins> bins_;
 };
 

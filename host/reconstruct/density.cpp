@@ -56,7 +56,7 @@ SampleDensity densityOf(const LightField& field) {
 float samplesAround(const SampleDensity& density, vec2 p, float slope) {
     const DensityLayout& layout = density.layout;
     if (layout.size.x == 0) return density.typical;
-    const float halfPx = glm::max(kHalfSquareOfDisc * glm::abs(slope), kLeastHalfPx);
+    const float halfPx = glm::max(kHalfSquareOfDisc * glm::abs(slope), kMinHalfPx);
     const vec2 place = p - vec2(layout.origin), size = vec2(layout.size);
     const vec2 low = glm::clamp(glm::floor(place - halfPx + 0.5f), vec2(0), size - 1.f);
     const vec2 high = glm::clamp(glm::floor(place + halfPx + 0.5f), low + 1.f, size);
@@ -65,10 +65,10 @@ float samplesAround(const SampleDensity& density, vec2 p, float slope) {
     };
     const uint count =
         (sumTo(high.x, high.y) - sumTo(low.x, high.y)) - (sumTo(high.x, low.y) - sumTo(low.x, low.y));
-    return glm::max(float(count) / ((high.x - low.x) * (high.y - low.y)), kLeastDensity);
+    return glm::max(float(count) / ((high.x - low.x) * (high.y - low.y)), kMinDensity);
 }
 
-float narrowingAt(const SampleDensity& density, vec2 p, float slope, float radiusPx) {
+float radiusRatioAt(const SampleDensity& density, vec2 p, float slope, float radiusPx) {
     if (density.layout.size.x == 0) return 1;
     return glm::max(glm::sqrt(samplesAround(density, p, slope)) * (radiusPx / kSearchRadius), 1.f);
 }

@@ -30,6 +30,6 @@ SampleDensity densityOf(const LightField& field);
 float samplesAround(const SampleDensity& density, vec2 p, float slope);
 
 /// R over the own radius of a sample: 1 where all pixels have as many, and never less. As lib/density.glsl.
-float narrowingAt(const SampleDensity& density, vec2 p, float slope, float radiusPx);
+float radiusRatioAt(const SampleDensity& density, vec2 p, float slope, float radiusPx);
 
 } // namespace slant

@@ -29,17 +29,17 @@ void fullMethod(CpuRun& run) {
     const Rect& frame = run.field.frame;
     const OutputPattern pattern = makeOutputPattern(options.outputsPerPixel, largestSlope(bins.grid),
                                                     options.lensScale, apertureOf(run.field, options));
-    const bool layered = usesLayers(run.field, options.method);
-    const int texels = mapTexels(run.field);
+    const bool usesMap = usesLayers(run.field, options.method);
+    const int texels = mapTexelsPerPixel(run.field);
     const float reach = mapReach(bins.grid, options.lensScale);
     const int maxRows =
-        layered ? mapRows(frame, texels, reach, options.memoryBytes / 2) : std::numeric_limits<int>::max();
+        usesMap ? mapRows(frame, texels, reach, options.memoryBytes / 2) : std::numeric_limits<int>::max();
     const Plan plan = planOutputs(frame, run.film.filter(), pattern, maxDenseSamples(options), maxRows);
 
     run.monitor.beginStage("reconstruct", plan.outputs, "outputs");
     for (const Band& band : plan.bands) {
         std::optional<LayerMap> map;
-        if (layered)
+        if (usesMap)
             map =
                 layerMapOf(run, bins, chooseMap(bins.grid, band.region, texels, reach, spreadPerPx(pattern)));
         for (std::size_t group = 0; group < pattern.groups.size(); group += plan.groupsPerChunk) {
@@ -57,9 +57,9 @@ void fullMethod(CpuRun& run) {
             run.observe("lists.start", chunk.lists.start);
             run.observe("lists.bricks", chunk.lists.bricks);
             if (map) {
-                run.observe("rungs", chunk.rungs.codes);
-                run.observe("missed", chunk.rungs.missed);
-                addMapShare(run.report.mapShare, frame, band, chunk.rungs, pattern.groups.size());
+                run.observe("list_classes", chunk.classes.codes);
+                run.observe("missed", chunk.classes.missed);
+                addMapShare(run.report.mapShare, frame, band, chunk.classes, pattern.groups.size());
             }
             run.observe("dense", chunk.dense.samples);
             StageTimer timer(run.report, "pixel_filter", "outputs");

@@ -11,7 +11,7 @@ namespace slant {
 namespace {
 
 /// Wider margins take more memory and time than they save.
-constexpr float kMostReachPx = 128;
+constexpr float kMaxReachPx = 128;
 
 /// Adds a layer to a texel that has room for it. What has nothing before or behind it fills the texel.
 void close(MapTexel& texel, const Surface& surface, float fullWeight, bool last) {
@@ -30,13 +30,13 @@ ivec2 aligned(vec2 px, bool up) {
 
 } // namespace
 
-int mapTexels(const LightField& field) {
+int mapTexelsPerPixel(const LightField& field) {
     // From two samples a pixel on, wider texels soften what is in focus.
-    return sampleCounts(field).most <= 1 ? 1 : kMostMapTexels;
+    return sampleCounts(field).most <= 1 ? 1 : kMaxTexelsPerPixel;
 }
 
 float mapReach(const GridLayout& grid, float lensScale) {
-    return glm::min(lensScale * largestSlope(grid), kMostReachPx);
+    return glm::min(lensScale * largestSlope(grid), kMaxReachPx);
 }
 
 int mapRows(const Rect& frame, int texels, float reachPx, std::uint64_t bytes) {
@@ -61,7 +61,7 @@ MapLayout chooseMap(const GridLayout& grid, const Rect& region, int texels, floa
     const vec2 high = glm::min(vec2(float(region.x1), float(region.y1)) + margin, grid.origin + extent);
     MapLayout map{};
     map.origin = aligned(low, false);
-    map.texels = texels;
+    map.texelsPerPixel = texels;
     map.size = texels * glm::max(aligned(high, true) - map.origin, ivec2(kMapAlignPx));
     map.surfaceGap = grid.surfaceGap;
     map.reachPx = reachPx;
@@ -94,14 +94,14 @@ std::size_t levelBegin(const MapLayout& map, int level) {
 OutputLayout mapTiles(const MapLayout& map) {
     OutputLayout layout{};
     layout.regionOrigin = map.origin;
-    layout.regionSize = map.size / map.texels;
+    layout.regionSize = map.size / map.texelsPerPixel;
     layout.tileCount = layout.regionSize / kTileSize;
-    layout.outputsPerPixel = map.texels * map.texels;
+    layout.outputsPerPixel = map.texelsPerPixel * map.texelsPerPixel;
     return layout;
 }
 
 vec2 texelCenter(const MapLayout& map, ivec2 texel) {
-    return vec2(map.origin) + (vec2(texel) + 0.5f) * (1.f / float(map.texels));
+    return vec2(map.origin) + (vec2(texel) + 0.5f) * (1.f / float(map.texelsPerPixel));
 }
 
 namespace {
@@ -114,7 +114,7 @@ MapTexel resolveWithin(const SearchContext& context, const MapLayout& map, ivec2
     const float fullWeight = kFullWeight * widening * widening;
     MapTexel texel;
     Surface surface;
-    const float mostNarrowing = radius * float(map.texels);
+    const float maxRadiusRatio = radius * float(map.texelsPerPixel);
     const auto visit = [&](Candidate candidate) {
         if (surface.count > 0 && candidate.slope > surface.slopeMax + grid.surfaceGap) {
             close(texel, surface, fullWeight, false);
@@ -122,12 +122,12 @@ MapTexel resolveWithin(const SearchContext& context, const MapLayout& map, ivec2
             if (texel.count == kMapLayers) return false;
         }
         // Where own radii are less than the tent's, there are more samples in it than it takes.
-        const float widened = glm::min(candidate.radiance.w, mostNarrowing) / candidate.radiance.w;
+        const float widened = glm::min(candidate.radiance.w, maxRadiusRatio) / candidate.radiance.w;
         candidate.weight *= widened * widened;
         addSample(surface, candidate, radius);
         return true;
     };
-    forEachCandidate(context, Output{texelCenter(map, place), vec2(0), 0, 0}, searchRadius, mostNarrowing,
+    forEachCandidate(context, Output{texelCenter(map, place), vec2(0), 0, 0}, searchRadius, maxRadiusRatio,
                      visit, [](const Brick&) { return false; });
     if (surface.count > 0) close(texel, surface, fullWeight, true);
     return texel;
@@ -217,7 +217,7 @@ LayerMap makeLayerMap(const Bins& bins, const MapLayout& layout) {
     parallelFor(0, std::size_t(layout.size.y), 8, [&](std::size_t first, std::size_t last) {
         for (int y = int(first); y < int(last); ++y)
             for (int x = 0; x < layout.size.x; ++x) {
-                const ivec2 tile = ivec2(x, y) / (kTileSize * layout.texels);
+                const ivec2 tile = ivec2(x, y) / (kTileSize * layout.texelsPerPixel);
                 const std::size_t list = std::size_t(tile.y) * tiles.tileCount.x + tile.x;
                 const std::span<const uint> bricks(lists.bricks.data() + lists.start[list],
                                                    lists.start[list + 1] - lists.start[list]);

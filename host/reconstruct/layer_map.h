@@ -23,7 +23,7 @@ struct LayerMap {
 /// bound.
 float mapReach(const GridLayout& grid, float lensScale);
 /// Texels along a pixel's side: a single one where no pixel has more samples than that.
-int mapTexels(const LightField& field);
+int mapTexelsPerPixel(const LightField& field);
 /// Rows of a band whose map fits into so many bytes. Throws Error(resources) where a row of tiles does not.
 int mapRows(const Rect& frame, int texels, float reachPx, std::uint64_t bytes);
 

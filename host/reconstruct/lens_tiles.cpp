@@ -40,7 +40,7 @@ std::vector<Output> placesOf(const LensMap& lens, const OutputPattern& pattern, 
             const vec2 step = vec2(float(k % kTileSteps), float(k / kTileSteps)) / float(kTileSteps - 1);
             Output output{corner + step * float(kTileSize), pattern.lensScale * uv, 0, 0};
             if (!(lens.at(output.xy, output.uv).openShare > 0)) continue;
-            seeThrough(lens, output);
+            toSceneSide(lens, output);
             places.push_back(output);
         }
     }
@@ -149,8 +149,8 @@ ivec2 meeting(const BoundsAt& bounds, int offset, int count, float from, float t
 
 } // namespace
 
-TileRange tilesThroughLens(const Brick& brick, const GridLayout& grid, const OutputLayout& layout,
-                           std::span<const float> bounds, std::size_t group) {
+TileRange tilesOfCompoundLens(const Brick& brick, const GridLayout& grid, const OutputLayout& layout,
+                              std::span<const float> bounds, std::size_t group) {
     const float steps = float(kLensTileSlopes - 1) * grid.invBucket / float(grid.bucketCount);
     const float from = (brick.slopeMin - grid.slopeMin) * steps,
                 to = (brick.slopeMax - grid.slopeMin) * steps;

@@ -19,8 +19,8 @@ std::vector<float> lensTileBounds(const LensMap& lens, const OutputPattern& patt
 
 /// Tiles whose outputs in a group, counted from the first of `bounds`, can see a sample of `brick`. As
 /// lib/lens_tiles.glsl.
-TileRange tilesThroughLens(const Brick& brick, const GridLayout& grid, const OutputLayout& layout,
-                           std::span<const float> bounds, std::size_t group);
+TileRange tilesOfCompoundLens(const Brick& brick, const GridLayout& grid, const OutputLayout& layout,
+                              std::span<const float> bounds, std::size_t group);
 
 /// The region for whose outputs the samples of a picture are binned: its pixels and the filter's reach. Of a
 /// field with a lens map it is on the scene's side, and with what its metric and pupils ask for beyond

@@ -7,7 +7,7 @@ namespace {
 
 /// What a common exponent e (biased as a float's) stands for: 2^(e - 137), so that values below 2^(e - 126)
 /// take 11 bits.
-constexpr uint kLeastExponent = 11, kFloatBias = 127, kExponentBias = 137;
+constexpr uint kMinExponent = 11, kFloatBias = 127, kExponentBias = 137;
 
 float powerOfTwo(uint biased) {
     return std::bit_cast<float>(biased << 23);
@@ -16,7 +16,7 @@ float powerOfTwo(uint biased) {
 glm::uvec2 packLayer(const MapLayer& layer, const SlopeCode& code) {
     if (layer.slope == kNoLayer) return {0, kNoSlopeCode << 16};
     const float most = glm::max(glm::max(layer.rgb.x, layer.rgb.y), layer.rgb.z);
-    const uint exponent = glm::max(std::bit_cast<uint>(most) >> 23, kLeastExponent);
+    const uint exponent = glm::max(std::bit_cast<uint>(most) >> 23, kMinExponent);
     const float scale = powerOfTwo(kFloatBias + kExponentBias - exponent);
     const uint r = glm::min(uint(layer.rgb.x * scale + 0.5f), 2047u);
     const uint g = glm::min(uint(layer.rgb.y * scale + 0.5f), 2047u);

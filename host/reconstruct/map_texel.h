@@ -1,6 +1,6 @@
 // A texel of the layer map, and its 16 bytes. As shaders/lib/map_texel.glsl.
 #pragma once
-#include "shared/layers.h"
+#include "shared/layer_map.h"
 
 #include <array>
 

@@ -17,10 +17,10 @@
 namespace slant {
 
 enum class Method {
-    box,    ///< the pixel filter over the input samples: no reconstruction
-    window, ///< reprojection within a fixed window of pixels: what this program grew from, for comparison
-    full,   ///< reprojection, apparent surfaces and visibility for every output (Lehtinen et al. 2011)
-    ladder, ///< "auto": outputs of blurred surfaces from a layer map, the others as `full`
+    box,       ///< the pixel filter over the input samples: no reconstruction
+    window,    ///< reprojection within a fixed window of pixels: what this program grew from, for comparison
+    full,      ///< reprojection, apparent surfaces and visibility for every output (Lehtinen et al. 2011)
+    automatic, ///< "auto": outputs of blurred surfaces from a layer map, the others as `full`
 };
 inline constexpr std::size_t kMethodCount = 4;
 
@@ -40,7 +40,7 @@ struct WindowOptions {
 };
 
 struct ReconstructOptions {
-    Method method = Method::ladder;
+    Method method = Method::automatic;
     int outputsPerPixel = 128; ///< a power of two; `box` has none
     float lensScale = 1;       ///< radius of the aperture over that of the traced one; 0 = pinhole; not `box`
     std::optional<Aperture> aperture; ///< to look through; unset: the traced one; not `box`
@@ -59,16 +59,16 @@ std::uint64_t maxDenseSamples(const ReconstructOptions& options);
 
 /// Receives what a stage made, in the order in which the stages run, as 32-bit words. CPU and compute report
 /// the same stages with the same words, so that the first difference names the stage at fault.
-class StageObserver {
+class IntermediateObserver {
 public:
-    virtual ~StageObserver() = default;
+    virtual ~IntermediateObserver() = default;
     virtual void stage(const std::string& name, std::span<const uint> words) = 0;
 };
 
 /// What a run met and cost.
 struct ReconstructReport {
     std::uint64_t outputs = 0;    ///< reconstructed samples
-    std::uint64_t layered = 0;    ///< of them, those that were taken from the layer map
+    std::uint64_t fromMap = 0;    ///< of them, those that were taken from the layer map
     std::uint64_t visibility = 0; ///< of them, those that needed apparent surfaces told apart
     std::uint64_t widened = 0; ///< those that found nothing within 2 R (window: and took the nearest sample)
     std::uint64_t holes = 0;   ///< those that found nothing at all and were left out (window: are black)
@@ -91,7 +91,7 @@ public:
     /// traced: another focus (lightfield/refocus.h). `observer` may be null. Throws Error(usage) for a shift
     /// unless options.anyFocus. A picture does not depend on which others were made.
     virtual Image picture(float slopeShift, Monitor& monitor, ReconstructReport& report,
-                          StageObserver* observer) = 0;
+                          IntermediateObserver* observer) = 0;
     /// Pictures from now on show the radiances that the samples have by now.
     virtual void takeRadiances() = 0;
 };
@@ -104,7 +104,7 @@ public:
                                                    const ReconstructOptions& options) = 0;
     /// A single picture, as traced.
     Image reconstruct(const LightField& field, const ReconstructOptions& options, Monitor& monitor,
-                      ReconstructReport& report, StageObserver* observer) {
+                      ReconstructReport& report, IntermediateObserver* observer) {
         return prepare(field, options)->picture(0, monitor, report, observer);
     }
 };

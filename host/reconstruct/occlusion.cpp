@@ -10,7 +10,7 @@ namespace slant {
 namespace {
 
 /// Blocks of 1 or 2 px and closer planes lower the error by a few percent only.
-constexpr float kLeastBlockPx = 4, kLeastSpacingPx = 1;
+constexpr float kMinBlockPx = 4, kMinSpacingPx = 1;
 constexpr int kMaxPlanes = 128;
 /// Of all planes, 128 MiB; larger pictures have larger blocks.
 constexpr double kMaxBlocks = 1 << 25;
@@ -55,10 +55,10 @@ OcclusionLayout chooseOcclusion(const GridLayout& grid, const SampleDensity& den
     const vec2 extent = vec2(grid.brickCount * grid.cellsPerBrick) / grid.invCell;
     OcclusionLayout layout;
     layout.slopeMin = grid.slopeMin;
-    layout.spacing = std::max({kLeastSpacingPx, grid.surfaceGap, slopes / float(kMaxPlanes - 1)});
+    layout.spacing = std::max({kMinSpacingPx, grid.surfaceGap, slopes / float(kMaxPlanes - 1)});
     layout.planeCount = int(slopes / layout.spacing) + 1;
     layout.stride = uint(std::max(1, int(density.typical) / kRaysPerPixel));
-    float blockPx = kLeastBlockPx;
+    float blockPx = kMinBlockPx;
     const auto blocks = [&] { return glm::floor(extent / blockPx) + 1.f; };
     while (double(layout.planeCount) * blocks().x * blocks().y > kMaxBlocks) blockPx *= 2;
     layout.blockCount = ivec2(blocks());
@@ -87,10 +87,10 @@ std::vector<uint> countStopped(const LightField& field, const GridLayout& grid,
 }
 
 float visibilityWeight(std::span<const uint> stopped, const GridLayout& grid, const OcclusionLayout& layout,
-                       vec2 p, float slope, float narrowing) {
+                       vec2 p, float slope, float radiusRatio) {
     const uint count = stopped[blockOf(layout, p, slope, grid.origin)];
-    const float rays = layout.raysPerBlock * (narrowing * narrowing);
-    return 1.f / glm::max(1.f - float(count) / rays, kLeastVisible);
+    const float rays = layout.raysPerBlock * (radiusRatio * radiusRatio);
+    return 1.f / glm::max(1.f - float(count) / rays, kMinVisible);
 }
 
 } // namespace slant

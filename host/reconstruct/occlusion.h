@@ -24,9 +24,9 @@ inline std::size_t stoppedBlocks(const OcclusionLayout& layout) {
 std::vector<uint> countStopped(const LightField& field, const GridLayout& grid,
                                const OcclusionLayout& layout);
 
-/// 1 / (part of the lens from which a sample at pinhole position p is visible), at most 1 / kLeastVisible;
-/// `narrowing` as narrowingAt. As lib/occlusion.glsl.
+/// 1 / (part of the lens from which a sample at pinhole position p is visible), at most 1 / kMinVisible;
+/// `radiusRatio` as radiusRatioAt. As lib/occlusion.glsl.
 float visibilityWeight(std::span<const uint> stopped, const GridLayout& grid, const OcclusionLayout& layout,
-                       vec2 p, float slope, float narrowing);
+                       vec2 p, float slope, float radiusRatio);
 
 } // namespace slant

@@ -68,7 +68,7 @@ LensBox cellsOf(const OutputPattern& pattern, std::size_t first, std::size_t las
 int groupBitsFor(int outputsPerPixel, float slopePx) {
     constexpr float kSpreadPx = 16;
     int bits = 0;
-    while ((2 << bits) <= std::min(outputsPerPixel, kMostGroupSize) &&
+    while ((2 << bits) <= std::min(outputsPerPixel, kMaxGroupSize) &&
            (bits == 0 || 2 * std::sqrt(float(2 << bits) / float(outputsPerPixel)) * slopePx <= kSpreadPx))
         ++bits;
     return bits;
@@ -86,7 +86,7 @@ uint owenScramble(uint reversed, uint seed) {
 }
 
 /// Outputs a pixel that are enough where all see the same: what they integrate is the pixel alone.
-constexpr int kThinOutputBits = 5;
+constexpr int kSparseOutputBits = 5;
 
 struct SequenceEntry {
     uint index; ///< in the sequence
@@ -123,7 +123,7 @@ OutputPattern makeOutputPattern(int outputsPerPixel, float slopePx, float lensSc
     pattern.aperture = std::move(aperture);
     pattern.lensCells = {1 << (bits + 1) / 2, 1 << bits / 2};
     pattern.groupBits = groupBitsFor(outputsPerPixel, lensScale * slopePx);
-    pattern.thinBits = std::clamp(kThinOutputBits - (bits - pattern.groupBits), 0, pattern.groupBits);
+    pattern.sparseBits = std::clamp(kSparseOutputBits - (bits - pattern.groupBits), 0, pattern.groupBits);
 
     std::vector<SequenceEntry> sequence = lensSequence(bits);
     std::sort(sequence.begin(), sequence.end(), [](const auto& left, const auto& right) {
@@ -162,9 +162,9 @@ Output outputAt(ivec2 pixel, int output, const OutputPattern& pattern, uint seed
     return o;
 }
 
-void seeThrough(const LensMap& lens, Output& output) {
-    const ScenicPlace place = lens.at(output.xy, output.uv);
-    output.throughLens = true;
+void toSceneSide(const LensMap& lens, Output& output) {
+    const SceneRay place = lens.at(output.xy, output.uv);
+    output.compoundLens = true;
     output.xy = place.xy;
     output.uv = place.uv;
     output.weight = place.weight;

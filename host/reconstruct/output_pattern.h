@@ -23,7 +23,7 @@ struct OutputPattern {
     float lensScale = 1;         ///< radius of the disc that outputs look through
     Aperture aperture;           ///< what that disc lets through
     int groupBits = 0;           ///< 2^groupBits consecutive entries make a group
-    int thinBits = 0;            ///< 2^thinBits of them are enough where a group sees one part of the scene
+    int sparseBits = 0;          ///< 2^sparseBits of them are enough where a group sees one part of the scene
     std::vector<LensBox> groups; ///< lens positions of each group
     std::vector<LensBox> cells;  ///< the same as parts of the square [-1, 1]^2 that concentricDisc maps
 
@@ -49,7 +49,7 @@ inline int inOrder(const glm::uvec4& entry) {
     return int(entry.w >> 8 & 255u);
 }
 
-/// Groups are of up to kMostGroupSize outputs, fewer where `slopePx`, the largest slope to either side, would
+/// Groups are of up to kMaxGroupSize outputs, fewer where `slopePx`, the largest slope to either side, would
 /// spread them over the picture. Throws Error(usage) unless isOutputCount(outputsPerPixel).
 OutputPattern makeOutputPattern(int outputsPerPixel, float slopePx, float lensScale = 1,
                                 Aperture aperture = {});
@@ -61,15 +61,15 @@ struct Output {
     float t;
     float positionCode; ///< place in its pixel: qx * kSubpixels + qy, exact in a float
 
-    // Set by seeThrough.
-    bool throughLens = false;
+    // Set by toSceneSide.
+    bool compoundLens = false;
     float weight = 1; ///< of the radiance
     vec3 filmMetric{1, 0, 1};
     vec2 extent{1};
 };
 
 /// Takes an output of the film to the scene's side of a lens, where samples are searched (camera/lens_map.h).
-void seeThrough(const LensMap& lens, Output& output);
+void toSceneSide(const LensMap& lens, Output& output);
 
 /// From a distance on the scene's side to one on the film.
 inline vec2 onFilm(const Output& output, vec2 offset) {

@@ -33,7 +33,7 @@ Reconstructed reconstructNearest(const SearchContext& context, const Output& out
     const auto hides = [&](const Brick& brick) {
         return brick.slopeMin > slopeMax + grid.surfaceGap && isSolid();
     };
-    result.iterations = forEachCandidate(context, output, grid.radiusPx, kAnyNarrowing, visit, hides);
+    result.iterations = forEachCandidate(context, output, grid.radiusPx, kAnyRadiusRatio, visit, hides);
     const bool taken = another ? isSolid() : weightSum > 0;
     result.outcome = taken ? Outcome::resolved : Outcome::needsVisibility;
     if (taken) result.rgb = sum / weightSum;
@@ -77,7 +77,7 @@ Reconstructed resolveVisibility(const SearchContext& context, const Output& outp
     const auto hides = [&](const Brick& brick) {
         return brick.slopeMin > surface.slopeMax + grid.surfaceGap && isSolid(surface, fullWeight);
     };
-    result.iterations = forEachCandidate(context, output, 2 * baseRadius, kAnyNarrowing, visit, hides);
+    result.iterations = forEachCandidate(context, output, 2 * baseRadius, kAnyRadiusRatio, visit, hides);
     if (surface.count > 0) layers.rgb += layers.transmittance * meanOf(surface);
     if (surface.count > 0 || !(layers.transmittance > 0)) result.outcome = Outcome::resolved;
     result.rgb = layers.rgb;

@@ -25,7 +25,7 @@ BrickBox boxOf(const Brick& brick, const GridLayout& grid) {
 
 TileRange tilesSeeing(const Brick& brick, const GridLayout& grid, const OutputLayout& layout,
                       const LensBox& box, float marginPx) {
-    const float ownMarginPx = glm::min(marginPx, glm::max(marginPx * widestRadius(brick), kLeastMarginPx));
+    const float ownMarginPx = glm::min(marginPx, glm::max(marginPx * widestRadius(brick), kMinMarginPx));
     const auto [low, high] = boxOf(brick, grid);
     const vec2 a = brick.slopeMin * box.min, b = brick.slopeMin * box.max;
     const vec2 c = brick.slopeMax * box.min, d = brick.slopeMax * box.max;

@@ -61,7 +61,7 @@ std::size_t collect(const WindowSamples& samples, const WindowSearch& search, iv
         for (uint record = begin; record < end; ++record) {
             const vec4& position = samples.positions[record];
             vec2 offset = vec2(position.x, position.y) + position.z * output.uv - output.xy;
-            if (output.throughLens) offset = onFilm(output, offset);
+            if (output.compoundLens) offset = onFilm(output, offset);
             const float distance2 = offset.x * offset.x + offset.y * offset.y;
             if (distance2 < nearest2) {
                 nearest2 = distance2;
@@ -134,7 +134,7 @@ WindowResult lookThroughWindow(const WindowSamples& samples, const WindowSearch&
     const WindowCandidate* previous = nullptr;
     bool taken = false;
     for (const WindowCandidate& candidate : scratch) {
-        if (surface.count >= kLeastSurface && !sameSurface(*previous, candidate, search.lensStep)) {
+        if (surface.count >= kMinSurface && !sameSurface(*previous, candidate, search.lensStep)) {
             taken = surrounds(surface.hull);
             if (taken) break;
             if (front.count == 0) front = surface;

@@ -41,7 +41,7 @@ WindowChunk::Counts WindowChunk::look(std::size_t count, const IndexAt& indexAt,
             const ivec2 pixel = layout_.regionOrigin + ivec2(int(place % width), int(place / width));
             const int k = firstOutput_ + int(index / area);
             Output output = outputAt(pixel, k, pattern_, layout_.seed);
-            if (!lens_.empty()) seeThrough(lens_, output);
+            if (!lens_.empty()) toSceneSide(lens_, output);
             const WindowResult result = output.weight > 0
                                             ? lookThroughWindow(samples_, search_, pixel, output, scratch)
                                             : WindowResult{WindowOutcome::found};

@@ -79,7 +79,7 @@ struct Reach {
               s.y + most > float(frame.y1)))
             return;
         const glm::vec2 raster(s.x, s.y);
-        const ScenicPlace here = lens.at(raster, {s.u, s.v});
+        const SceneRay here = lens.at(raster, {s.u, s.v});
         if (!(here.openShare > 0) || !std::isfinite(s.slope)) return;
         const glm::vec3& m = here.filmMetric;
         for (const glm::vec2 rim : {glm::vec2(1, 0), glm::vec2(-1, 0), glm::vec2(0, 1), glm::vec2(0, -1)}) {

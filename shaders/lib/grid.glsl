@@ -56,7 +56,7 @@ vec4 boxOf(Brick brick, GridLayout grid) {
 /// Tiles whose outputs, through lens positions of `box` (min, max), can see a sample of the brick: first.xy,
 /// last.zw, half-open; empty where last <= first.
 ivec4 tilesSeeing(Brick brick, GridLayout grid, OutputLayout outputs, vec4 box, float marginPx) {
-    const float ownMarginPx = min(marginPx, max(marginPx * widestRadius(brick), kLeastMarginPx));
+    const float ownMarginPx = min(marginPx, max(marginPx * widestRadius(brick), kMinMarginPx));
     const vec4 positions = boxOf(brick, grid);
     const vec2 low = positions.xy, high = positions.zw;
     const vec2 a = brick.slopeMin * box.xy, b = brick.slopeMin * box.zw;

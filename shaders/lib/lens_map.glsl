@@ -4,7 +4,7 @@
 #define SLANT_LIB_LENS_MAP_GLSL
 #include "shared/lens_map.h"
 
-struct ScenicPlace {
+struct SceneRay {
     vec2 xy, uv;
     vec3 filmMetric;
     vec2 extent;
@@ -31,12 +31,12 @@ vec4 lensMapInPlace(int index, LensMapPlace place) {
     return a + place.rings * (lensMapInRing(index + place.plane, place.row, place.part, place.between) - a);
 }
 
-ScenicPlace scenicPlace(vec2 raster, vec2 lens) {
+SceneRay sceneRay(vec2 raster, vec2 lens) {
     const vec4 head = lensMapAt(0), shape = lensMapAt(1);
     const vec2 offset = raster - head.xy;
     const float r = sqrt(offset.x * offset.x + offset.y * offset.y);
     const float radii = r * head.z;
-    ScenicPlace place = ScenicPlace(vec2(0.0), vec2(0.0), vec3(0.0), vec2(0.0), 0.0, 0.0);
+    SceneRay place = SceneRay(vec2(0.0), vec2(0.0), vec3(0.0), vec2(0.0), 0.0, 0.0);
     if (!(radii < head.w - 1.0)) return place;
     const int radius = int(radii);
     const vec4 here = lensMapAlong(kLensMapHeader + radius, radii - float(radius));

@@ -43,7 +43,7 @@ ivec2 meeting(BoundsAt at, int offset, int count, float from, float to) {
 }
 
 /// As tilesSeeing of lib/grid.glsl.
-ivec4 tilesThroughLens(Brick brick, GridLayout grid, OutputLayout outputs, int group) {
+ivec4 tilesOfCompoundLens(Brick brick, GridLayout grid, OutputLayout outputs, int group) {
     const float steps = float(kLensTileSlopes - 1) * grid.invBucket / float(grid.bucketCount);
     const float from = (brick.slopeMin - grid.slopeMin) * steps, to = (brick.slopeMax - grid.slopeMin) * steps;
     if (!(from > -0.01 && to < float(kLensTileSlopes - 1) + 0.01)) return ivec4(0, 0, outputs.tileCount);

@@ -1,9 +1,9 @@
 // A texel of the layer map and its words. As host/reconstruct/map_texel.h, where they are explained.
 #ifndef SLANT_LIB_MAP_TEXEL_GLSL
 #define SLANT_LIB_MAP_TEXEL_GLSL
-#include "shared/layers.h"
+#include "shared/layer_map.h"
 
-const uint kLeastExponent = 11u, kFloatBias = 127u, kExponentBias = 137u;
+const uint kMinExponent = 11u, kFloatBias = 127u, kExponentBias = 137u;
 const uvec2 kNoLayerWords = uvec2(0u, kNoSlopeCode << 16);
 
 float powerOfTwo(uint biased) { return uintBitsToFloat(biased << 23); }
@@ -15,7 +15,7 @@ SlopeCode slopeCode(GridLayout grid) {
 
 uvec2 packLayer(vec3 rgb, float coverage, float slope, SlopeCode code) {
     const float most = max(max(rgb.x, rgb.y), rgb.z);
-    const uint exponent = max(floatBitsToUint(most) >> 23, kLeastExponent);
+    const uint exponent = max(floatBitsToUint(most) >> 23, kMinExponent);
     const float scale = powerOfTwo(kFloatBias + kExponentBias - exponent);
     const uint r = min(uint(rgb.x * scale + 0.5), 2047u);
     const uint g = min(uint(rgb.y * scale + 0.5), 2047u);

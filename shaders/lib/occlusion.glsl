@@ -35,8 +35,8 @@ int blockOf(OcclusionLayout layout_, vec2 p, float slope, vec2 origin) {
     return (plane * layout_.blockCount.y + block.y) * layout_.blockCount.x + block.x;
 }
 
-float visibilityWeight(OcclusionLayout layout_, uint stopped, float narrowing) {
-    const float rays = layout_.raysPerBlock * (narrowing * narrowing);
-    return 1.0 / max(1.0 - float(stopped) / rays, kLeastVisible);
+float visibilityWeight(OcclusionLayout layout_, uint stopped, float radiusRatio) {
+    const float rays = layout_.raysPerBlock * (radiusRatio * radiusRatio);
+    return 1.0 / max(1.0 - float(stopped) / rays, kMinVisible);
 }
 #endif

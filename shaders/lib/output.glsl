@@ -10,14 +10,14 @@ struct Output {
     float t;
     float positionCode;
 
-    // Set by seeThrough.
+    // Set by toSceneSide.
     float weight; // of the radiance
     vec3 filmMetric;
     vec2 extent;
 };
 
 /// Outputs look through a lens of many surfaces: the samples are on its scene's side (host/camera/lens_map.h).
-layout(constant_id = 0) const bool kThroughLens = false;
+layout(constant_id = 0) const bool kCompoundLens = false;
 
 Output outputOnFilm(vec2 xy, vec2 uv, float t, float positionCode) {
     return Output(xy, uv, t, positionCode, 1.0, vec3(1.0, 0.0, 1.0), vec2(1.0));

@@ -11,14 +11,14 @@
 #include "lib/output.glsl"
 
 /// False where the search would have passed kMaxLoopIterations: the output must be done elsewhere.
-bool forEachCandidate(GridLayout grid, Output o, float radius, float mostNarrowing, uint listBegin, uint listEnd, inout Sweep sweep) {
+bool forEachCandidate(GridLayout grid, Output o, float radius, float maxRadiusRatio, uint listBegin, uint listEnd, inout Sweep sweep) {
     const int side = grid.cellsPerBrick;
     // In cells: where the output lies, how far its window moves with slope, and its half width.
     const vec2 center = (o.xy - grid.origin) * grid.invCell, shear = o.uv * grid.invCell;
     int iterations = 0;
     for (uint entry = listBegin; entry < listEnd && sweep.running; ++entry) {
         const Brick brick = listedBrick(entry);
-        const float ownRadius = radius * max(widestRadius(brick), 1.0 / mostNarrowing);
+        const float ownRadius = radius * max(widestRadius(brick), 1.0 / maxRadiusRatio);
         const vec2 reach = ownRadius * grid.invCell * o.extent;
         const vec2 a = brick.slopeMin * shear, b = brick.slopeMax * shear;
         const ivec2 first = max(cellAt(grid, center - max(a, b) - reach), firstCell(brick));
@@ -37,14 +37,14 @@ bool forEachCandidate(GridLayout grid, Output o, float radius, float mostNarrowi
             for (uint record = begin; record < end && sweep.running; ++record) {
                 const vec4 position = positionAt(record);
                 vec2 offset = position.xy + position.z * o.uv - o.xy;
-                if (kThroughLens) offset = onFilm(o, offset);
+                if (kCompoundLens) offset = onFilm(o, offset);
                 const float distance2 = offset.x * offset.x + offset.y * offset.y;
                 if (!(distance2 < ownRadius * ownRadius)) continue;
                 const vec4 radiance = radianceAt(record);
-                const float narrowing = min(radiance.w, mostNarrowing);
-                const float narrowed2 = distance2 * (narrowing * narrowing);
-                if (narrowed2 < radius * radius)
-                    visit(Candidate(offset, narrowed2, position.z, position.w, radiance), sweep);
+                const float radiusRatio = min(radiance.w, maxRadiusRatio);
+                const float scaled2 = distance2 * (radiusRatio * radiusRatio);
+                if (scaled2 < radius * radius)
+                    visit(Candidate(offset, scaled2, position.z, position.w, radiance), sweep);
             }
         }
     }

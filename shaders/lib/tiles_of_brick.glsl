@@ -6,7 +6,7 @@
 
 /// `group` counts from the first of the chunk.
 ivec4 tilesOfBrick(Brick brick, GridLayout grid, OutputLayout outputs, vec4 box, int group, float marginPx) {
-    if (kThroughLens) return tilesThroughLens(brick, grid, outputs, group);
+    if (kCompoundLens) return tilesOfCompoundLens(brick, grid, outputs, group);
     return tilesSeeing(brick, grid, outputs, box, marginPx);
 }
 #endif

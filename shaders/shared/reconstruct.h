@@ -11,7 +11,7 @@ SLANT_SHARED_CONSTANT int kTileSize = 8;
 /// whole blocks give the same film.
 SLANT_SHARED_CONSTANT int kFilmBlock = 32;
 /// Most outputs of a pixel that share a lens group, and so a list of bricks; whole groups make a block.
-SLANT_SHARED_CONSTANT int kMostGroupSize = 8;
+SLANT_SHARED_CONSTANT int kMaxGroupSize = 8;
 /// The search radius R is this over the square root of the samples a pixel where they are fewest; that of a
 /// sample (its own radius) the same where it lies.
 SLANT_SHARED_CONSTANT float kSearchRadius = 1.7f;
@@ -36,7 +36,7 @@ SLANT_SHARED_CONSTANT float kLeftOut = -2.0f;
 /// takes every step that any of them takes.
 SLANT_SHARED_CONSTANT int kMaxLoopIterations = 4000;
 /// The least part of the lens from which a sample that was seen is taken to be visible.
-SLANT_SHARED_CONSTANT float kLeastVisible = 0.0625f;
+SLANT_SHARED_CONSTANT float kMinVisible = 0.0625f;
 /// Slopes at which bounds of tiles are kept (host/reconstruct/lens_tiles.h).
 SLANT_SHARED_CONSTANT int kLensTileSlopes = 9;
 /// Sort key of a sample that no output can use.
@@ -77,7 +77,7 @@ SLANT_SHARED_CONSTANT float kRadiusSteps = 524288.0f; // 2^19
 
 /// Margins of a list narrow with the own radii of a brick's samples, but no further than to this: the layer
 /// map looks that far (twice the width of its smallest texels).
-SLANT_SHARED_CONSTANT float kLeastMarginPx = 1.0f;
+SLANT_SHARED_CONSTANT float kMinMarginPx = 1.0f;
 
 /// Words of a brick while its bounds are gathered, each the least of what its samples have: slope in ordered
 /// bits, its complement, column, row, the complements of those, and the bits of R over its own radius.
@@ -108,12 +108,12 @@ struct DensityLayout {
     ivec2 size;   // pixels; 0 where all have as many
 };
 /// Samples are counted over this many pixels to each side at least, and taken for this many a pixel at least.
-SLANT_SHARED_CONSTANT float kLeastHalfPx = 1.5f;
-SLANT_SHARED_CONSTANT float kLeastDensity = 0.015625f;
+SLANT_SHARED_CONSTANT float kMinHalfPx = 1.5f;
+SLANT_SHARED_CONSTANT float kMinDensity = 0.015625f;
 /// Half the side of a square that has the area of the unit disc.
 SLANT_SHARED_CONSTANT float kHalfSquareOfDisc = 0.88622693f;
 /// A search whose radius narrows to each sample's own, however small that is.
-SLANT_SHARED_CONSTANT float kAnyNarrowing = 1e9f;
+SLANT_SHARED_CONSTANT float kAnyRadiusRatio = 1e9f;
 
 /// bin_place, bin_occlude, bin_gather, bin_cells.
 struct BinPush {

@@ -11,7 +11,7 @@ SLANT_SHARED_CONSTANT int kMaxWindowCandidates = 64;
 /// invocations; with what it takes to sort kMaxWindowCandidates they stay below lavapipe's 65,535 steps.
 SLANT_SHARED_CONSTANT int kMaxWindowSteps = 60000;
 /// Samples that are one surface whatever their order: the fewest that can surround an output.
-SLANT_SHARED_CONSTANT int kLeastSurface = 3;
+SLANT_SHARED_CONSTANT int kMinSurface = 3;
 /// The Gaussian ends here, at e^-40: a lone distant sample still has a weight.
 SLANT_SHARED_CONSTANT float kMaxExponent = 40.0f;
 

@@ -99,7 +99,7 @@ int main() {
     Device device(DeviceOptions{});
     ComputeReconstructor reconstructor(device);
     fmt::print("{}; exponents of seconds, medians of {}\n", device.info().name, kRuns);
-    for (const Method method : {Method::ladder, Method::full})
+    for (const Method method : {Method::automatic, Method::full})
         for (const Growth& growth : growths()) {
             std::map<std::string, std::vector<std::pair<double, double>>> points;
             for (const auto& [value, setting] : growth.settings)

@@ -71,7 +71,7 @@ TEST_F(RenderErrors, wrongOptionsGiveStatusTwoBeforeTheSceneIsRead) {
     renderFails(2, none, {"--method", "window", "--window-range", "-1"});
     renderFails(2, none, {"--method", "window", "--window-alpha", "nan"});
     renderFails(2, none, {"--debug-image", "tiles"});
-    EXPECT_THAT(renderFails(2, none, {"--debug-image", "rungs", "--method", "box"}).err,
+    EXPECT_THAT(renderFails(2, none, {"--debug-image", "layer-map", "--method", "box"}).err,
                 HasSubstr("for --method auto"));
     EXPECT_THAT(renderFails(2, none, {"--method", "ful"}).err, HasSubstr("did you mean 'full'?"));
     EXPECT_THAT(renderFails(2, kSpheres, {"--device", "cpu", "--crop", "480,500,0,10"}).err,

@@ -16,7 +16,7 @@ using test::expectEqual;
 using test::Reconstruction;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-const std::vector<Method> kMethods = {Method::box, Method::window, Method::full, Method::ladder};
+const std::vector<Method> kMethods = {Method::box, Method::window, Method::full, Method::automatic};
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 class ReconstructParity : public test::VulkanTest {
@@ -49,7 +49,7 @@ protected:
         EXPECT_EQ(expected.report.emptyPixels, got.report.emptyPixels);
         EXPECT_EQ(expected.report.holes, got.report.holes);
         EXPECT_EQ(expected.report.outputs, got.report.outputs);
-        EXPECT_EQ(expected.report.layered, got.report.layered);
+        EXPECT_EQ(expected.report.fromMap, got.report.fromMap);
         EXPECT_TRUE(expected.report.mapShare == got.report.mapShare);
         EXPECT_EQ(expected.report.visibility, got.report.visibility);
         EXPECT_EQ(expected.report.widened, got.report.widened);
@@ -104,7 +104,7 @@ TEST_F(ReconstructParity, everyNumberOfOutputs) {
 TEST_F(ReconstructParity, everyAperture) {
     const LightField field = makeField({0, 0, 31, 23}, 3);
     for (const float lensScale : {0.f, 0.37f, 1.5f})
-        for (const Method method : {Method::window, Method::full, Method::ladder}) {
+        for (const Method method : {Method::window, Method::full, Method::automatic}) {
             ReconstructOptions options = optionsOf(method);
             options.lensScale = lensScale;
             EXPECT_EQ(runBoth(field, options).report.emptyPixels, 0u);
@@ -118,7 +118,7 @@ TEST_F(ReconstructParity, everyShapeOfAperture) {
     std::vector<ApertureShape> shapes{apertureOfImage(ring, {})};
     for (const char* name : {"disc", "star", "polygon 7 12"}) shapes.push_back(*parseAperture(name, {}));
     for (const ApertureShape& shape : shapes)
-        for (const Method method : {Method::window, Method::full, Method::ladder}) {
+        for (const Method method : {Method::window, Method::full, Method::automatic}) {
             ReconstructOptions options = optionsOf(method, 32);
             options.aperture = Aperture(shape);
             options.lensScale = 0.9f;
@@ -145,9 +145,9 @@ TEST_F(ReconstructParity, filmDoesNotDependOnMemory) {
 /// The layer map takes the greater part of the memory; its bands follow from that.
 TEST_F(ReconstructParity, layerMapDoesNotDependOnMemory) {
     const LightField field = makeField({0, 0, 61, 43}, 8);
-    ReconstructOptions options = optionsOf(Method::ladder, 64);
+    ReconstructOptions options = optionsOf(Method::automatic, 64);
     const Reconstruction plenty = runBoth(field, options);
-    EXPECT_GT(plenty.report.layered, plenty.report.outputs / 10);
+    EXPECT_GT(plenty.report.fromMap, plenty.report.outputs / 10);
     for (const auto& [bytes, maps] : {std::pair(4'250'000u, 3), {4'750'000u, 2}}) {
         options.memoryBytes = bytes;
         const Reconstruction tight = runBoth(field, options);
@@ -165,9 +165,9 @@ TEST_F(ReconstructParity, whereAllIsInFocusFewOutputsAreMade) {
     layers[1].slope = 0.4f;
     for (const int spp : {3, 16}) { // from the map, from the bins
         const LightField field = synthetic::sample(layers, frame, 15, spp, 7);
-        const Reconstruction thin = runBoth(field, optionsOf(Method::ladder, 128));
+        const Reconstruction thin = runBoth(field, optionsOf(Method::automatic, 128));
         EXPECT_EQ(thin.report.outputs, std::uint64_t(31 * 23 * 32));
-        EXPECT_EQ(thin.report.layered, spp == 3 ? thin.report.outputs : 0);
+        EXPECT_EQ(thin.report.fromMap, spp == 3 ? thin.report.outputs : 0);
         const Image all = runBoth(field, optionsOf(Method::full, 128)).image;
         double difference = 0;
         for (std::size_t i = 0; i < all.pixels.size(); ++i)
@@ -198,7 +198,7 @@ TEST_F(ReconstructParity, outputsWithTooManyCandidatesAreDoneOnTheCpu) {
         s.x = 11.9f + 0.2f * random.uniform() + s.slope * s.u;
         s.y = 7.9f + 0.2f * random.uniform() + s.slope * s.v;
     }
-    EXPECT_GT(runBoth(crowded, optionsOf(Method::ladder)).report.layered, 0u);
+    EXPECT_GT(runBoth(crowded, optionsOf(Method::automatic)).report.fromMap, 0u);
 }
 
 TEST_F(ReconstructParity, sanitizedRubbishIsLeftOut) {

@@ -48,7 +48,7 @@ protected:
 
 TEST_F(RefocusParity, everyStageOfEveryFocus) {
     const LightField field = synthetic::sample(synthetic::discsOverChecks(), {-3, 2, 40, 27}, 15, 3, 7);
-    for (const Method method : {Method::full, Method::ladder})
+    for (const Method method : {Method::full, Method::automatic})
         expectSamePictures(field, optionsOf(method), false);
 }
 

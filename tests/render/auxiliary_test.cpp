@@ -129,7 +129,7 @@ TEST_F(Auxiliary, depthIsThatOfTheRaysThatHit) {
         return image;
     };
     const Image truth = coverage(256, Method::box);
-    for (const Method method : {Method::full, Method::ladder}) {
+    for (const Method method : {Method::full, Method::automatic}) {
         const Image image = coverage(8, method);
         EXPECT_LT(relativeError(image, truth, "A"), 1e-3) << nameOf(method);
         for (std::size_t i = 0; i < frame.area(); ++i) {

@@ -66,7 +66,7 @@ TEST_P(LampThrough, theApertureIsItsShape) {
     EXPECT_LT(differenceOfShapes(truth, aperture), 0.08);
     EXPECT_GT(differenceOfShapes(truth, Aperture()), 0.16);
     const double filtered = compare(reconstruct(lamp(8, 1, aperture), Method::box), truth).relMse;
-    for (const Method method : {Method::full, Method::ladder}) {
+    for (const Method method : {Method::full, Method::automatic}) {
         const Image traced = reconstruct(lamp(8, 1, aperture), method);
         const Image narrowed = reconstruct(lamp(8, 1, Aperture()), method, aperture);
         EXPECT_LT(compare(traced, truth).relMse, 0.25 * filtered) << nameOf(method);

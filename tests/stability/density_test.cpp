@@ -51,14 +51,14 @@ TEST(Density, isTheMeanOverTheBlur) {
     EXPECT_EQ(samplesAround(density, {64, 20}, 9), 9);
     EXPECT_NEAR(samplesAround(density, {60, 20}, 12), 6.4, 0.2); // 6.6 of 21.3 pixels are beyond the edge
     EXPECT_EQ(samplesAround(density, {-1e6f, 1e6f}, 3), 2) << "the nearest pixels there are";
-    EXPECT_EQ(narrowingAt(density, {20, 20}, 0, emptyCircleRadius(2)), 1);
-    EXPECT_FLOAT_EQ(narrowingAt(density, {120, 20}, 0, emptyCircleRadius(2)), std::sqrt(8.f));
+    EXPECT_EQ(radiusRatioAt(density, {20, 20}, 0, emptyCircleRadius(2)), 1);
+    EXPECT_FLOAT_EQ(radiusRatioAt(density, {120, 20}, 0, emptyCircleRadius(2)), std::sqrt(8.f));
 }
 
 TEST(Density, equalCountsAreNoDifference) {
     LightField field = synthetic::sample(kLayers, {0, 0, 30, 20}, kOverscan, 3, 1);
     EXPECT_EQ(densityOf(field).least, 3);
-    EXPECT_EQ(narrowingAt(densityOf(field), {3, 4}, 5, 0.7f), 1);
+    EXPECT_EQ(radiusRatioAt(densityOf(field), {3, 4}, 5, 0.7f), 1);
     const std::vector<std::uint32_t> counts(field.bounds.area(), 3);
     setSampleCounts(field, counts);
     EXPECT_EQ(field.samplesPerPixel, 3);
@@ -69,9 +69,9 @@ TEST(Density, constantRadianceStays) {
     for (const synthetic::Counts& counts : synthetic::varyingCounts(kFrame)) {
         LightField field = synthetic::sample(kLayers, {40, 0, 80, 31}, kOverscan, counts.at, 5);
         for (LightFieldSample& s : field.samples) s.r = s.g = s.b = 0.7f;
-        for (const Method method : {Method::box, Method::full, Method::ladder})
+        for (const Method method : {Method::box, Method::full, Method::automatic})
             for (const float value : reconstruct(field, method).image.pixels)
-                ASSERT_NEAR(value, 0.7f, method == Method::ladder ? 5e-4f : 1e-5f) // the map has 11 bits
+                ASSERT_NEAR(value, 0.7f, method == Method::automatic ? 5e-4f : 1e-5f) // the map has 11 bits
                     << counts.name << ", " << nameOf(method);
     }
 }
@@ -108,7 +108,7 @@ TEST_P(DensityOfMethod, isAsExactAsUniformFieldsOfThatDensity) {
     EXPECT_LT(dense, 1.1 * uniformDense);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, DensityOfMethod, testing::Values(Method::full, Method::ladder),
+INSTANTIATE_TEST_SUITE_P(Methods, DensityOfMethod, testing::Values(Method::full, Method::automatic),
                          [](const auto& method) { return nameOf(method.param); });
 
 } // namespace

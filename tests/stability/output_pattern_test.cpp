@@ -113,8 +113,8 @@ TEST(OutputPattern, theFirstOfAllGroupsAreStratifiedToo) {
             for (const std::vector<double>& values : {x, y, t}) expectOneInEach(values);
         }
     }
-    EXPECT_EQ(makeOutputPattern(32, 5).thinBits, makeOutputPattern(32, 5).groupBits);
-    EXPECT_EQ(makeOutputPattern(128, 5).groups.size() << makeOutputPattern(128, 5).thinBits, 32u);
+    EXPECT_EQ(makeOutputPattern(32, 5).sparseBits, makeOutputPattern(32, 5).groupBits);
+    EXPECT_EQ(makeOutputPattern(128, 5).groups.size() << makeOutputPattern(128, 5).sparseBits, 32u);
 }
 
 TEST(OutputPattern, pixelsAndSeedsDiffer) {

@@ -10,8 +10,8 @@
 namespace slant {
 namespace {
 
-const std::vector<Method> kMethods = {Method::box, Method::full, Method::ladder};
-const std::vector<Method> kReconstructions = {Method::full, Method::ladder};
+const std::vector<Method> kMethods = {Method::box, Method::full, Method::automatic};
+const std::vector<Method> kReconstructions = {Method::full, Method::automatic};
 
 Image reconstruct(const LightField& field, Method method, int outputs = 32, float lensScale = 1) {
     ReconstructOptions options;
@@ -107,9 +107,9 @@ TEST(ReconstructStability, stripBehindABlurredEdgeIsSolid) {
     for (const auto& [method, spp] : {std::pair(Method::full, 2),
                                       {Method::full, 4},
                                       {Method::full, 16},
-                                      {Method::ladder, 2},
-                                      {Method::ladder, 4},
-                                      {Method::ladder, 16}}) {
+                                      {Method::automatic, 2},
+                                      {Method::automatic, 4},
+                                      {Method::automatic, 16}}) {
         const Image image = reconstruct(synthetic::sample(layers, kFrame, 15, spp, 21), method, 128);
         for (int x = 38; x < 51; ++x) {
             double got = 0, wanted = 0;
@@ -134,17 +134,17 @@ TEST(ReconstructStability, smallDiscsKeepTheirBrightness) {
             const std::vector<synthetic::Layer> layers = {{slope, inside, colour(1)},
                                                           {9, [](vec2) { return true; }, colour(0)}};
             for (const int spp : {2, 4, 16}) {
-                double full = 0, ladder = 0,
+                double full = 0, automatic = 0,
                        wanted = 0; // of the same samples, so that their noise does not count
                 for (const std::uint32_t seed : {31, 32}) {
                     const LightField field = synthetic::sample(layers, kFrame, 15, spp, seed);
                     full += meanOf(reconstruct(field, Method::full, 32));
-                    ladder += meanOf(reconstruct(field, Method::ladder, 32));
+                    automatic += meanOf(reconstruct(field, Method::automatic, 32));
                     wanted += meanOf(reconstruct(field, Method::box));
                 }
                 EXPECT_NEAR(full / wanted, 1, 0.06)
                     << "radius " << radius << ", slope " << slope << ", " << spp;
-                EXPECT_NEAR(ladder / wanted, 1, 0.06)
+                EXPECT_NEAR(automatic / wanted, 1, 0.06)
                     << "radius " << radius << ", slope " << slope << ", " << spp;
             }
         }

@@ -93,7 +93,7 @@ TEST(Refocus, movesSlopesAndNothingElseInTheBins) {
 TEST(Refocus, picturesDoNotDependOnThoseBefore) {
     LightField field = traced(19.5f, 4, 1);
     const float near = shiftTo(field, 1.1), far = shiftTo(field, 4);
-    for (const Method method : {Method::full, Method::ladder}) {
+    for (const Method method : {Method::full, Method::automatic}) {
         const auto prepared = CpuReconstructor().prepare(field, optionsOf(method));
         const std::vector<Image> series = {picture(*prepared, near), picture(*prepared, far),
                                            picture(*prepared, 0), picture(*prepared, near)};
@@ -117,7 +117,7 @@ TEST(Refocus, picturesDoNotDependOnThoseBefore) {
 /// otherwise.
 TEST(Refocus, atTheTracedFocusChangesNothing) {
     const LightField field = traced(19.5f, 4, 1);
-    for (const Method method : {Method::full, Method::ladder}) {
+    for (const Method method : {Method::full, Method::automatic}) {
         ReconstructOptions options = optionsOf(method);
         options.anyFocus = false;
         const Image plain = picture(*CpuReconstructor().prepare(field, options), 0);

@@ -10,7 +10,7 @@
 
 namespace slant::test {
 
-struct Stages : StageObserver {
+struct Stages : IntermediateObserver {
     void stage(const std::string& name, std::span<const uint> words) override {
         names.push_back(name);
         contents.emplace_back(words.begin(), words.end());

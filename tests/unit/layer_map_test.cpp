@@ -1,5 +1,5 @@
 // The layer map on light fields whose surfaces are known, and what is taken from it.
-#include "reconstruct/layers.h"
+#include "reconstruct/map_lookup.h"
 #include "reconstruct/plan.h"
 #include "support/synthetic.h"
 
@@ -26,14 +26,14 @@ struct Fixture {
     explicit Fixture(const std::vector<synthetic::Layer>& layers, int spp = 16) {
         const LightField field = synthetic::sample(layers, kFrame, 15, spp, 3);
         bins = binSamples(field, {kFrame});
-        map =
-            makeLayerMap(bins, chooseMap(bins.grid, kFrame, mapTexels(field), mapReach(bins.grid, 1), 0.5f));
+        map = makeLayerMap(
+            bins, chooseMap(bins.grid, kFrame, mapTexelsPerPixel(field), mapReach(bins.grid, 1), 0.5f));
         allBricks.resize(bins.bricks.size());
         std::iota(allBricks.begin(), allBricks.end(), 0u);
     }
 
     std::size_t texelAt(vec2 p, int level) const {
-        const ivec2 texel = ivec2((p - vec2(map.layout.origin)) * float(map.layout.texels)) >> level;
+        const ivec2 texel = ivec2((p - vec2(map.layout.origin)) * float(map.layout.texelsPerPixel)) >> level;
         return levelBegin(map.layout, level) + std::size_t(texel.y) * levelSize(map.layout, level).x +
                texel.x;
     }
@@ -41,17 +41,17 @@ struct Fixture {
         return unpackTexel(map.texels[texelAt(p, level)], map.layout.code);
     }
     /// Of a list of all bricks.
-    Rung rung(const LensBox& lens, float reachPx) const {
+    ListClass listClass(const LensBox& lens, float reachPx) const {
         MapLayout layout = map.layout;
         layout.reachPx = reachPx;
-        return rungOf(bins, allBricks, lens, 1, layout);
+        return classOfList(bins, allBricks, lens, 1, layout);
     }
 };
 
 TEST(LayerMap, texelsHoldWhatIsSeenAndWhatIsHidden) {
     for (const int spp : {1, 16}) {
         const Fixture f(halfPlane(), spp);
-        EXPECT_EQ(f.map.layout.texels, spp == 1 ? 1 : 2) << "no closer than samples need";
+        EXPECT_EQ(f.map.layout.texelsPerPixel, spp == 1 ? 1 : 2) << "no closer than samples need";
         ASSERT_GE(f.map.layout.levels, 2);
         for (int level = 0; level < f.map.layout.levels; ++level) {
             SCOPED_TRACE(fmt::format("{} samples a pixel, level {}", spp, level));
@@ -113,31 +113,31 @@ TEST(LayerMap, coverageOfARimIsItsArea) {
 TEST(Layers, clustersAreToldApart) {
     const Fixture f(halfPlane());
     const LensBox lens{vec2(0.5f), vec2(0.7f)};
-    const Rung rung = f.rung(lens, 20);
-    ASSERT_EQ(rung.clusters.size(), 2u);
-    EXPECT_NEAR(rung.clusters[0].slopeMin, -4, 1e-4);
-    EXPECT_NEAR(rung.clusters[0].slopeMax, -4, 1e-4);
-    EXPECT_NEAR(rung.clusters[1].slopeMin, 9, 1e-4);
-    EXPECT_FALSE(rung.sharp);
-    EXPECT_TRUE(f.rung(lens, 8).clusters.empty()) << "reaches further than the map";
-    EXPECT_FALSE(f.rung({vec2(0), vec2(0.5f)}, 8).clusters.empty());
-    EXPECT_TRUE(rungOf(f.bins, {}, lens, 1, f.map.layout).clusters.empty());
+    const ListClass listClass = f.listClass(lens, 20);
+    ASSERT_EQ(listClass.clusters.size(), 2u);
+    EXPECT_NEAR(listClass.clusters[0].slopeMin, -4, 1e-4);
+    EXPECT_NEAR(listClass.clusters[0].slopeMax, -4, 1e-4);
+    EXPECT_NEAR(listClass.clusters[1].slopeMin, 9, 1e-4);
+    EXPECT_FALSE(listClass.inFocus);
+    EXPECT_TRUE(f.listClass(lens, 8).clusters.empty()) << "reaches further than the map";
+    EXPECT_FALSE(f.listClass({vec2(0), vec2(0.5f)}, 8).clusters.empty());
+    EXPECT_TRUE(classOfList(f.bins, {}, lens, 1, f.map.layout).clusters.empty());
 }
 
 TEST(Layers, whatIsInFocusIsServedWhereSamplesAreNoFinerThanTexels) {
     std::vector<synthetic::Layer> focused = halfPlane();
     focused[0].slope = 0.3f;
     const Fixture coarse(focused, 9);
-    const Rung rung = coarse.rung({vec2(0.5f), vec2(0.7f)}, 20);
-    EXPECT_EQ(rung.clusters.size(), 2u);
-    EXPECT_TRUE(rung.sharp);
-    EXPECT_EQ(rung.code(), 2u | kSharpRung);
-    EXPECT_TRUE(Fixture(focused, 16).rung({vec2(0.5f), vec2(0.7f)}, 20).clusters.empty());
+    const ListClass listClass = coarse.listClass({vec2(0.5f), vec2(0.7f)}, 20);
+    EXPECT_EQ(listClass.clusters.size(), 2u);
+    EXPECT_TRUE(listClass.inFocus);
+    EXPECT_EQ(listClass.code(), 2u | kInFocusBit);
+    EXPECT_TRUE(Fixture(focused, 16).listClass({vec2(0.5f), vec2(0.7f)}, 20).clusters.empty());
 }
 
 TEST(Layers, raysFindTheirSurfaces) {
     const Fixture f(halfPlane());
-    const std::vector<Cluster> clusters = f.rung({vec2(-1), vec2(1)}, 20).clusters;
+    const std::vector<Cluster> clusters = f.listClass({vec2(-1), vec2(1)}, 20).clusters;
     for (const float u : {-0.7f, -0.2f, 0.f, 0.4f, 0.8f})
         for (float x = 8.5f; x < 56; ++x) {
             const float front = x + 4 * u, back = x - 9 * u; // pinhole positions on either layer

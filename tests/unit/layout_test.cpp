@@ -1,7 +1,7 @@
 // Structs of push constants lie in memory as the shaders see them. A new one is added to kLayouts: the test
 // fails on a shader whose struct it does not know.
 #include "compute/spirv.h"
-#include "shared/layers.h"
+#include "shared/layer_map.h"
 #include "shared/radix.h"
 #include "shared/reconstruct.h"
 #include "shared/scan.h"
@@ -53,9 +53,9 @@ const Layout kLayouts[] = {
            MEMBER(WindowPush, lensScale), MEMBER(WindowPush, firstOutput), MEMBER(WindowPush, count)),
     STRUCT(ReducePush, MEMBER(ReducePush, size), MEMBER(ReducePush, source), MEMBER(ReducePush, target),
            MEMBER(ReducePush, surfaceGap), MEMBER(ReducePush, code)),
-    STRUCT(LayerPush, MEMBER(LayerPush, outputs), MEMBER(LayerPush, map), MEMBER(LayerPush, firstGroup),
-           MEMBER(LayerPush, count), MEMBER(LayerPush, groupBits), MEMBER(LayerPush, thinBits),
-           MEMBER(LayerPush, lensScale)),
+    STRUCT(MapLookupPush, MEMBER(MapLookupPush, outputs), MEMBER(MapLookupPush, map),
+           MEMBER(MapLookupPush, firstGroup), MEMBER(MapLookupPush, count), MEMBER(MapLookupPush, groupBits),
+           MEMBER(MapLookupPush, sparseBits), MEMBER(MapLookupPush, lensScale)),
     STRUCT(LowerBoundPush, MEMBER(LowerBoundPush, keyCount), MEMBER(LowerBoundPush, count)),
 };
 

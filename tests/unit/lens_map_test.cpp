@@ -35,7 +35,7 @@ struct Draw {
     }
 };
 
-glm::dvec2 onFilm(const ScenicPlace& place, glm::dvec2 offset) {
+glm::dvec2 onFilm(const SceneRay& place, glm::dvec2 offset) {
     const glm::dvec3 m = place.filmMetric;
     return {m.x * offset.x + m.y * offset.y, m.y * offset.x + m.z * offset.y};
 }
@@ -64,10 +64,10 @@ TEST_P(LensMapOf, isWithinATenthOfAPixelOfExactRaysAtAnyDepth) {
         const glm::vec2 raster = draw_() * glm::vec2(kSize), square = draw_();
         const glm::vec2 disc = concentricDisc(square.x, square.y);
         const auto path = exactPath(camera_, raster, disc);
-        const ScenicPlace place = map_.at(raster, disc);
+        const SceneRay place = map_.at(raster, disc);
         if (!path || !(place.weight > 0)) continue;
-        const glm::dvec2 xy = camera_.filmCentre() + camera_.scenicPlace(path->line),
-                         uv = camera_.scenicPupil(path->line);
+        const glm::dvec2 xy = camera_.filmCentre() + camera_.sceneRay(path->line),
+                         uv = camera_.entrancePupilPlace(path->line);
         for (const float inverse : {0.f, 0.5f, 1.f, 2.f}) { // of the depth in focus
             const double slope = double(camera_.slopeModel()(float(camera_.focusDepth()) / inverse));
             const glm::dvec2 off = glm::dvec2(place.xy) - xy - slope * (glm::dvec2(place.uv) - uv);
@@ -85,7 +85,7 @@ TEST_P(LensMapOf, metricTurnsShortWaysIntoThoseOnTheFilm) {
     for (int i = 0; i < 2000; ++i) {
         const glm::vec2 raster = glm::vec2(20) + draw_() * glm::vec2(kSize - 40),
                         step = 8.f * (draw_() - 0.5f);
-        const ScenicPlace here = map_.at(raster, {0, 0}), there = map_.at(raster + step, {0, 0});
+        const SceneRay here = map_.at(raster, {0, 0}), there = map_.at(raster + step, {0, 0});
         if (!(here.weight > 0 && there.weight > 0)) continue;
         const glm::dvec2 way = onFilm(here, there.xy - here.xy);
         EXPECT_LT(glm::length(way - glm::dvec2(step)), 0.05 + 0.08 * double(glm::length(step)));
@@ -118,7 +118,7 @@ TEST_P(LensMapOf, tilesSeeTheBricksOfWhatTheirOutputsSee) {
         const ivec2 position(draw_() * glm::vec2(layout.regionSize));
         const int index = int(draw_().x * 64);
         Output output = outputAt(layout.regionOrigin + position, index, pattern, 5);
-        seeThrough(map_, output);
+        toSceneSide(map_, output);
         if (!(output.weight > 0)) continue;
         // A brick of one cell that holds a sample which the output can use.
         const float slope = grid.slopeMin + 40 * draw_().x, wide = 0.5f * draw_().x;
@@ -129,7 +129,7 @@ TEST_P(LensMapOf, tilesSeeTheBricksOfWhatTheirOutputsSee) {
         const uint place = uint(cell.x | cell.y << 16);
         const Brick brick{place, uint(kRadiusSteps) << 12, slope - wide, slope + wide};
         const TileRange range =
-            tilesThroughLens(brick, grid, layout, bounds, std::size_t(index / pattern.groupSize()));
+            tilesOfCompoundLens(brick, grid, layout, bounds, std::size_t(index / pattern.groupSize()));
         const ivec2 tile = position / kTileSize;
         ASSERT_TRUE(tile.x >= range.first.x && tile.x < range.last.x && tile.y >= range.first.y &&
                     tile.y < range.last.y)
@@ -150,12 +150,12 @@ TEST_P(LensMapOf, samplesOnTheScenesSideKeepTheRadianceOfTheScene) {
     const float bright = map_.at({100.5f, 70.5f}, {0, 0}).weight;
     field.samples = {{100.5f, 70.5f, 0, 0, 0, 1, 0.25f, 1, bright, 2 * bright, 0, 0},
                      {-5000, 0, 0, 0, 0, 1, 0.25f, 1, 0, 0, 0, 0}};
-    const LightField scenic = onSceneSide(field);
-    EXPECT_NEAR(scenic.samples[0].r, 1, 1e-6);
-    EXPECT_NEAR(scenic.samples[0].g, 2, 1e-6);
-    EXPECT_EQ(scenic.samples[0].slope, 0.25f);
-    EXPECT_GT(scenic.samples[0].areaExcess, -0.5f);
-    EXPECT_TRUE(std::isnan(scenic.samples[1].slope)) << "where the film is dark";
+    const LightField sceneSide = onSceneSide(field);
+    EXPECT_NEAR(sceneSide.samples[0].r, 1, 1e-6);
+    EXPECT_NEAR(sceneSide.samples[0].g, 2, 1e-6);
+    EXPECT_EQ(sceneSide.samples[0].slope, 0.25f);
+    EXPECT_GT(sceneSide.samples[0].areaExcess, -0.5f);
+    EXPECT_TRUE(std::isnan(sceneSide.samples[1].slope)) << "where the film is dark";
 }
 
 INSTANTIATE_TEST_SUITE_P(Lenses, LensMapOf,

@@ -41,8 +41,8 @@ TEST_P(Occlusion, partOfTheLensBehindAnEdge) {
         // Blocks are 4 px wide and planes up to a pixel from the sample's own slope.
         const double nearer = discBeyond((kEdge - x + 4.5) / (kBack - kFront)),
                      further = discBeyond((kEdge - x - 4.5) / (kBack - kFront));
-        EXPECT_GT(mean, std::max<double>(nearer, kLeastVisible) - 0.03) << x;
-        EXPECT_LT(mean, std::max<double>(further, kLeastVisible) + 0.03) << x;
+        EXPECT_GT(mean, std::max<double>(nearer, kMinVisible) - 0.03) << x;
+        EXPECT_LT(mean, std::max<double>(further, kMinVisible) + 0.03) << x;
     }
 }
 

@@ -1,4 +1,4 @@
-// The ladder of slope models: closed forms, what lenses without aberrations leave, and the choice.
+// Slope models: closed forms, what lenses without aberrations leave, and the choice.
 #include "camera/slope_residual.h"
 #include "support/lenses.h"
 
@@ -67,13 +67,13 @@ TEST(SlopeResiduals, theLowestRungWithinTheToleranceIsChosen) {
     at.lens.percentile95 = 0.4;
     at.radiusMean.percentile95 = 0.3;
     at.sampleMean.percentile95 = 0.2;
-    const auto chosen = [&](double tolerance) { return selectRung({at, {}}, tolerance); };
-    EXPECT_EQ(chosen(0.5), SlopeRung::lens);
-    EXPECT_EQ(chosen(0.35), SlopeRung::filmRadius);
-    EXPECT_EQ(chosen(0.25), SlopeRung::sample);
-    EXPECT_EQ(chosen(0.1), SlopeRung::sample) << "the best there is";
+    const auto chosen = [&](double tolerance) { return selectSlopeFit({at, {}}, tolerance); };
+    EXPECT_EQ(chosen(0.5), SlopeFitKind::lens);
+    EXPECT_EQ(chosen(0.35), SlopeFitKind::filmRadius);
+    EXPECT_EQ(chosen(0.25), SlopeFitKind::sample);
+    EXPECT_EQ(chosen(0.1), SlopeFitKind::sample) << "the best there is";
     at.radiusMean.percentile95 = 0.15;
-    EXPECT_EQ(chosen(0.1), SlopeRung::filmRadius);
+    EXPECT_EQ(chosen(0.1), SlopeFitKind::filmRadius);
 }
 
 TEST(SlopeResiduals, twoConstantsAreExactOnTheScenesSide) {

@@ -80,7 +80,7 @@ TEST_P(ShapeAtStop, mapIsWithinATenthOfAPixelOfExactRays) {
     for (int i = 0; i < 20000; ++i) {
         const float x = unit(random), y = unit(random), a = unit(random), b = unit(random);
         const glm::vec2 raster(480 * x, 270 * y), stop = camera_.aperture().at({2 * a - 1, 2 * b - 1});
-        const ScenicPlace place = camera_.lensMap().at(raster, stop);
+        const SceneRay place = camera_.lensMap().at(raster, stop);
         const glm::dvec2 offset = glm::dvec2(raster) - camera_.filmCentre(), e = glm::normalize(offset);
         const glm::dmat2 frame(e, glm::dvec2(-e.y, e.x));
         const glm::dvec2 pupil =
@@ -97,8 +97,8 @@ TEST_P(ShapeAtStop, mapIsWithinATenthOfAPixelOfExactRays) {
         ASSERT_TRUE(path);
         for (const float inverse : {0.f, 1.f, 2.f}) { // of the depth in focus
             const double slope = double(camera_.slopeModel()(float(camera_.focusDepth()) / inverse));
-            const glm::dvec2 xy = camera_.filmCentre() + camera_.scenicPlace(path->line),
-                             uv = camera_.scenicPupil(path->line);
+            const glm::dvec2 xy = camera_.filmCentre() + camera_.sceneRay(path->line),
+                             uv = camera_.entrancePupilPlace(path->line);
             errors.push_back(glm::length(glm::dvec2(place.xy) - xy - slope * (glm::dvec2(place.uv) - uv)));
         }
     }

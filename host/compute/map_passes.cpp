@@ -1,17 +1,18 @@
-#include "compute/layer_passes.h"
+#include "compute/map_passes.h"
 
 namespace slant {
 
-LayerPasses::LayerPasses(Device& device, const OutputPattern& pattern)
-    : device_(device), map_(device, "layer_map"), reduce_(device, "layer_reduce"), rungs_(device, "rungs"),
-      layers_(device, "layers"), texels_(device, TexelFormat::rgba32ui, 0),
+MapPasses::MapPasses(Device& device, const OutputPattern& pattern)
+    : device_(device), map_(device, "layer_map"), reduce_(device, "map_reduce"),
+      classify_(device, "list_classify"), lookup_(device, "map_lookup"),
+      texels_(device, TexelFormat::rgba32ui, 0),
       lensPoints_(device, TexelFormat::rgba32f, pattern.entries.size()),
       clusters_(device, TexelFormat::rgba32f, 0) {
     lensPoints_.upload(lensPoints(pattern));
 }
 
-void LayerPasses::makeMap(CommandList& commands, const DeviceBins& bins, const MapLayout& layout,
-                          const std::function<MapTexel(ivec2)>& resolve) {
+void MapPasses::makeMap(CommandList& commands, const DeviceBins& bins, const MapLayout& layout,
+                        const std::function<MapTexel(ivec2)>& resolve) {
     layout_ = layout;
     const std::size_t base = levelBegin(layout_, 1), texels = levelBegin(layout_, layout_.levels);
     texels_ = Buffer(device_, TexelFormat::rgba32ui, texels);
@@ -53,23 +54,24 @@ void LayerPasses::makeMap(CommandList& commands, const DeviceBins& bins, const M
     commands.run();
 }
 
-void LayerPasses::record(CommandList& commands, const ListPasses& listPasses, const DeviceLists& lists,
-                         const Buffer& pattern, const OutputPush& outputs, const Buffer& rungs,
-                         const Buffer& missed, const Buffer& dense) {
-    LayerPush push{};
+void MapPasses::record(CommandList& commands, const ListPasses& listPasses, const DeviceLists& lists,
+                       const Buffer& pattern, const OutputPush& outputs, const Buffer& classes,
+                       const Buffer& missed, const Buffer& dense) {
+    MapLookupPush push{};
     push.outputs = outputs.outputs;
     push.map = layout_;
     push.firstGroup = outputs.firstGroup;
     push.count = uint(lists.start.texels() - 1);
     push.groupBits = outputs.groupBits;
     push.lensScale = outputs.lensScale;
-    push.thinBits = outputs.takenBits;
+    push.sparseBits = outputs.takenBits;
     if (clusters_.texels() < lists.bricks.texels())
         clusters_ = Buffer(device_, TexelFormat::rgba32f, lists.bricks.texels());
-    commands.dispatch(rungs_, {lists.start, lists.bricks, listPasses.lensBoxes(), rungs, clusters_, missed},
-                      push, rungs_.gridFor(push.count));
-    commands.dispatch(layers_, {lists.start, clusters_, texels_, lensPoints_, pattern, rungs, dense, missed},
-                      push,
+    commands.dispatch(classify_,
+                      {lists.start, lists.bricks, listPasses.lensBoxes(), classes, clusters_, missed}, push,
+                      classify_.gridFor(push.count));
+    commands.dispatch(lookup_,
+                      {lists.start, clusters_, texels_, lensPoints_, pattern, classes, dense, missed}, push,
                       {std::uint32_t(outputs.outputs.tileCount.x), std::uint32_t(outputs.outputs.tileCount.y),
                        outputs.groupCount});
 }

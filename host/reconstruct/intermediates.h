@@ -8,7 +8,7 @@
 namespace slant {
 
 /// Keeps hashes of what the first run makes.
-class StageRecorder final : public StageObserver {
+class IntermediateRecorder final : public IntermediateObserver {
 public:
     static constexpr std::size_t kBlockWords = 1024;
 
@@ -25,7 +25,7 @@ private:
 };
 
 /// Where the second run first differed.
-struct StageDifference {
+struct IntermediateDifference {
     std::size_t stage = 0; ///< in the order of the run
     std::string name;
     std::size_t expectedWords = 0, gotWords = 0;
@@ -34,24 +34,24 @@ struct StageDifference {
 };
 
 /// Holds the second run against the record of the first.
-class StageComparer final : public StageObserver {
+class IntermediateComparer final : public IntermediateObserver {
 public:
-    explicit StageComparer(const StageRecorder& expected) : expected_(expected) {}
+    explicit IntermediateComparer(const IntermediateRecorder& expected) : expected_(expected) {}
     void stage(const std::string& name, std::span<const uint> words) override;
 
     /// The first difference, if any; call it when the run is over.
-    std::optional<StageDifference> difference() const;
+    std::optional<IntermediateDifference> difference() const;
 
 private:
-    const StageRecorder& expected_;
+    const IntermediateRecorder& expected_;
     std::size_t next_ = 0;
-    std::optional<StageDifference> difference_;
+    std::optional<IntermediateDifference> difference_;
 };
 
 /// Picks the words of one block out of a repetition of the first run.
-class StageReader final : public StageObserver {
+class IntermediateReader final : public IntermediateObserver {
 public:
-    StageReader(std::size_t stage, std::size_t firstWord, std::size_t count)
+    IntermediateReader(std::size_t stage, std::size_t firstWord, std::size_t count)
         : stage_(stage), firstWord_(firstWord), count_(count) {}
     void stage(const std::string& name, std::span<const uint> words) override;
     const std::vector<uint>& words() const { return words_; }

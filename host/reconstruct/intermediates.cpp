@@ -1,4 +1,4 @@
-#include "reconstruct/stage_compare.h"
+#include "reconstruct/intermediates.h"
 
 #include <algorithm>
 
@@ -14,13 +14,13 @@ std::uint64_t hashOf(std::span<const uint> words) {
 
 template <typename Visit>
 void forEachBlock(std::span<const uint> words, Visit&& visit) {
-    for (std::size_t first = 0; first < words.size(); first += StageRecorder::kBlockWords)
-        visit(first, words.subspan(first, std::min(StageRecorder::kBlockWords, words.size() - first)));
+    for (std::size_t first = 0; first < words.size(); first += IntermediateRecorder::kBlockWords)
+        visit(first, words.subspan(first, std::min(IntermediateRecorder::kBlockWords, words.size() - first)));
 }
 
 } // namespace
 
-void StageRecorder::stage(const std::string& name, std::span<const uint> words) {
+void IntermediateRecorder::stage(const std::string& name, std::span<const uint> words) {
     Stage& stage = stages_.emplace_back();
     stage.name = name;
     stage.words = words.size();
@@ -28,31 +28,31 @@ void StageRecorder::stage(const std::string& name, std::span<const uint> words) 
                  [&](std::size_t, std::span<const uint> block) { stage.blocks.push_back(hashOf(block)); });
 }
 
-void StageComparer::stage(const std::string& name, std::span<const uint> words) {
+void IntermediateComparer::stage(const std::string& name, std::span<const uint> words) {
     const std::size_t index = next_++;
     if (difference_) return;
     if (index >= expected_.stages().size() || expected_.stages()[index].name != name ||
         expected_.stages()[index].words != words.size()) {
         const std::size_t expectedWords =
             index < expected_.stages().size() ? expected_.stages()[index].words : 0;
-        difference_ = StageDifference{index, name, expectedWords, words.size(), 0, {}};
+        difference_ = IntermediateDifference{index, name, expectedWords, words.size(), 0, {}};
         return;
     }
     const auto& blocks = expected_.stages()[index].blocks;
     forEachBlock(words, [&](std::size_t first, std::span<const uint> block) {
-        if (difference_ || hashOf(block) == blocks[first / StageRecorder::kBlockWords]) return;
-        difference_ = StageDifference{index,        name,  words.size(),
-                                      words.size(), first, std::vector<uint>(block.begin(), block.end())};
+        if (difference_ || hashOf(block) == blocks[first / IntermediateRecorder::kBlockWords]) return;
+        difference_ = IntermediateDifference{
+            index, name, words.size(), words.size(), first, std::vector<uint>(block.begin(), block.end())};
     });
 }
 
-std::optional<StageDifference> StageComparer::difference() const {
+std::optional<IntermediateDifference> IntermediateComparer::difference() const {
     if (difference_ || next_ == expected_.stages().size()) return difference_;
     const auto& missing = expected_.stages()[next_];
-    return StageDifference{next_, missing.name, missing.words, 0, 0, {}};
+    return IntermediateDifference{next_, missing.name, missing.words, 0, 0, {}};
 }
 
-void StageReader::stage(const std::string&, std::span<const uint> words) {
+void IntermediateReader::stage(const std::string&, std::span<const uint> words) {
     if (next_++ != stage_ || firstWord_ >= words.size()) return;
     const auto block = words.subspan(firstWord_, std::min(count_, words.size() - firstWord_));
     words_.assign(block.begin(), block.end());

@@ -17,32 +17,33 @@ namespace slant {
 /// Whether a method takes outputs of the field from a layer map. Through a lens of many surfaces it does not:
 /// there every output has its own metric and its own part of a distorted picture.
 inline bool usesLayers(const LightField& field, Method method) {
-    return method == Method::ladder && field.lensMap.empty();
+    return method == Method::automatic && field.lensMap.empty();
 }
 
-struct Rung {
+struct ListClass {
     std::vector<Cluster> clusters; ///< front to back; empty where outputs have to be searched for in the bins
-    bool sharp = false; ///< one of them is in focus: each output counts at its own place in the pixel
-    bool thin = false;  ///< a few outputs are enough, wherever they come from
+    bool inFocus = false; ///< one of them is in focus: each output counts at its own place in the pixel
+    bool sparse = false;  ///< a few outputs are enough, wherever they come from
 
-    /// As in the buffer of rungs, see kSharpRung and kThinRung.
+    /// As in the buffer of classes, see kInFocusBit and kSparseBit.
     uint code() const {
-        return uint(clusters.size()) | (sharp && !clusters.empty() ? kSharpRung : 0) | (thin ? kThinRung : 0);
+        return uint(clusters.size()) | (inFocus && !clusters.empty() ? kInFocusBit : 0) |
+               (sparse ? kSparseBit : 0);
     }
 };
 
 /// How the outputs of a list are made that look through `lens`, a part of the disc of radius `lensScale`.
-Rung rungOf(const Bins& bins, std::span<const uint> bricks, const LensBox& lens, float lensScale,
-            const MapLayout& map);
+ListClass classOfList(const Bins& bins, std::span<const uint> bricks, const LensBox& lens, float lensScale,
+                      const MapLayout& map);
 
 /// How the lists of a chunk are made.
-struct ListRungs {
-    std::vector<uint> codes;  ///< of each list, see Rung::code
+struct ListClasses {
+    std::vector<uint> codes;  ///< of each list, see ListClass::code
     std::vector<uint> missed; ///< two a list: see missedOf
 
-    explicit ListRungs(std::size_t lists) : codes(lists, 0), missed(2 * lists, ~0u) {}
-    void set(std::size_t list, const Rung& rung, std::uint64_t missedPixels) {
-        codes[list] = rung.code();
+    explicit ListClasses(std::size_t lists) : codes(lists, 0), missed(2 * lists, ~0u) {}
+    void set(std::size_t list, const ListClass& listClass, std::uint64_t missedPixels) {
+        codes[list] = listClass.code();
         missed[2 * list] = uint(missedPixels);
         missed[2 * list + 1] = uint(missedPixels >> 32);
     }
@@ -70,8 +71,8 @@ float spreadPerPx(const OutputPattern& pattern);
 std::optional<vec3> lookThrough(const LayerMap& map, std::span<const Cluster> clusters, vec2 x, vec2 uv);
 
 /// Adds to `share`, of the pixels of `frame` that a band finishes, what a chunk of its lists brings: 1 for a
-/// list that the map serves there, 1/2 if it is sharp, over `groups` in all.
-void addMapShare(std::vector<float>& share, const Rect& frame, const Band& band, const ListRungs& rungs,
+/// list that the map serves there, 1/2 if it is inFocus, over `groups` in all.
+void addMapShare(std::vector<float>& share, const Rect& frame, const Band& band, const ListClasses& classes,
                  std::size_t groups);
 
 } // namespace slant

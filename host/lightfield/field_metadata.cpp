@@ -1,4 +1,4 @@
-#include "lightfield/field_details.h"
+#include "lightfield/field_metadata.h"
 
 #include "base/suggest.h"
 #include "scene/spelling.h"
@@ -99,7 +99,7 @@ std::optional<std::vector<double>> parseNumbers(std::string_view text, std::size
     return numbers;
 }
 
-Metadata metadataOf(const LightField& field, const FieldDetails& details) {
+Metadata metadataOf(const LightField& field, const FieldMetadata& details) {
     Metadata metadata{{"slant:seed", fmt::to_string(details.seed)}};
     if (!field.aperture.isDisc()) metadata["slant:aperture"] = textOf(field.aperture.shape());
     if (details.filter) metadata["slant:filter"] = filterText(*details.filter);
@@ -110,8 +110,8 @@ Metadata metadataOf(const LightField& field, const FieldDetails& details) {
     return metadata;
 }
 
-bool setDetail(LightField& field, FieldDetails& details, const FileLocation& location, std::string_view name,
-               const std::string& value) {
+bool setMetadata(LightField& field, FieldMetadata& details, const FileLocation& location,
+                 std::string_view name, const std::string& value) {
     if (name == "filter")
         details.filter = parseFilter(location, value);
     else if (name == "aperture")

@@ -1,5 +1,5 @@
 // That a comparison of stages can fail, and then says where.
-#include "reconstruct/stage_compare.h"
+#include "reconstruct/intermediates.h"
 
 #include <gtest/gtest.h>
 #include <numeric>
@@ -15,14 +15,14 @@ Stages threeStages() {
     return {{"bin", words}, {"empty", {}}, {"dense", words}};
 }
 
-void run(const Stages& stages, StageObserver& observer) {
+void run(const Stages& stages, IntermediateObserver& observer) {
     for (const auto& [name, words] : stages) observer.stage(name, words);
 }
 
-std::optional<StageDifference> compare(const Stages& expected, const Stages& got) {
-    StageRecorder recorder;
+std::optional<IntermediateDifference> compare(const Stages& expected, const Stages& got) {
+    IntermediateRecorder recorder;
     run(expected, recorder);
-    StageComparer comparer(recorder);
+    IntermediateComparer comparer(recorder);
     run(got, comparer);
     return comparer.difference();
 }
@@ -45,7 +45,7 @@ TEST(StageCompare, oneBitIsFoundWhereverItIs) {
             EXPECT_EQ(difference->expectedWords, 5000u);
             EXPECT_EQ(difference->got.at(word - difference->firstWord), changed[2].second[word]);
 
-            StageReader reader(difference->stage, difference->firstWord, difference->got.size());
+            IntermediateReader reader(difference->stage, difference->firstWord, difference->got.size());
             run(threeStages(), reader);
             ASSERT_EQ(reader.words().size(), difference->got.size());
             for (std::size_t i = 0; i < reader.words().size(); ++i)

@@ -1,6 +1,6 @@
 // What C++ and GLSL share of the layer map and of the outputs that are taken from it.
-#ifndef SLANT_SHARED_LAYERS_H
-#define SLANT_SHARED_LAYERS_H
+#ifndef SLANT_SHARED_LAYER_MAP_H
+#define SLANT_SHARED_LAYER_MAP_H
 #include "shared/reconstruct.h"
 
 SLANT_SHARED_BEGIN
@@ -8,7 +8,7 @@ SLANT_SHARED_BEGIN
 /// Layers that a texel of the map keeps, front to back.
 SLANT_SHARED_CONSTANT int kMapLayers = 2;
 /// Most texels of level 0 along a pixel's side.
-SLANT_SHARED_CONSTANT int kMostMapTexels = 2;
+SLANT_SHARED_CONSTANT int kMaxTexelsPerPixel = 2;
 /// Maps begin and end at multiples of this many pixels, and no texel is wider, so that each map has the same
 /// texels as any other at all levels.
 SLANT_SHARED_CONSTANT int kMapAlignPx = 16;
@@ -22,20 +22,20 @@ SLANT_SHARED_CONSTANT float kWidestClusterPx = 8.0f;
 SLANT_SHARED_CONSTANT uint kMaxClusters = 16u;
 /// A cluster with a smaller slope is in focus. Where samples lie closer than texels, the map would soften it,
 /// and does not serve; where it serves, each output is looked up at its own place in the pixel.
-SLANT_SHARED_CONSTANT float kLeastSlope = 0.5f;
+SLANT_SHARED_CONSTANT float kMinSlope = 0.5f;
 /// Most clusters of such a list: the rims of crowds in focus are more than two layers can hold.
-SLANT_SHARED_CONSTANT uint kSharpClusters = 4u;
-/// Rung of a list: the number of its clusters, 0 if the map does not serve it, with this bit where one of
-/// them is in focus.
-SLANT_SHARED_CONSTANT uint kSharpRung = 256u;
+SLANT_SHARED_CONSTANT uint kMaxInFocusClusters = 4u;
+/// ListClass of a list: the number of its clusters, 0 if the map does not serve it, with this bit where one
+/// of them is in focus.
+SLANT_SHARED_CONSTANT uint kInFocusBit = 256u;
 /// Where some outputs of a pixel meet nothing in the map, that pixel of the list is searched for in the bins;
 /// all pixels are where the list has more clusters than this: then the map lacks more there than what was
 /// missed.
 SLANT_SHARED_CONSTANT uint kPartClusters = 3u;
-/// Bit of the rung of any list whose lens positions see everything within kThinPx of one another: a few of
-/// its outputs are enough (OutputPattern::thinBits).
-SLANT_SHARED_CONSTANT uint kThinRung = 512u;
-SLANT_SHARED_CONSTANT float kThinPx = 1.0f;
+/// Bit of the class of any list whose lens positions see everything within kSparsePx of one another: a few of
+/// its outputs are enough (OutputPattern::sparseBits).
+SLANT_SHARED_CONSTANT uint kSparseBit = 512u;
+SLANT_SHARED_CONSTANT float kSparsePx = 1.0f;
 /// Steps from a slope of a cluster to where the map has it.
 SLANT_SHARED_CONSTANT int kSettleSteps = 3;
 /// What shows through less than this is not looked for.
@@ -49,12 +49,12 @@ struct SlopeCode {
     float least, step, perStep;
 };
 
-/// The texels of the map: level 0 has `texels` a pixel along each side; each further level half as many, and
-/// is stored after the one before.
+/// The texels of the map: level 0 has texelsPerPixel along each side of a pixel; each further level half as
+/// many, and is stored after the one before.
 struct MapLayout {
-    ivec2 origin; // pixel at the corner of the first texel
-    ivec2 size;   // texels of level 0
-    int texels;   // 1 or kMostMapTexels, see mapTexels
+    ivec2 origin;       // pixel at the corner of the first texel
+    ivec2 size;         // texels of level 0
+    int texelsPerPixel; // along a side, 1 or kMaxTexelsPerPixel, see mapTexelsPerPixel
     int levels;
     float surfaceGap;  // as GridLayout
     float reachPx;     // a surface that moves further over the lens may lie outside the map
@@ -69,7 +69,7 @@ struct Cluster {
     float slopeMin, slopeMax, level;
 };
 
-/// layer_reduce: one level from the one below.
+/// map_reduce: one level from the one below.
 struct ReducePush {
     ivec2 size;  // texels of the level below
     uint source; // its first texel
@@ -78,14 +78,14 @@ struct ReducePush {
     SlopeCode code;
 };
 
-/// rungs, layers.
-struct LayerPush {
+/// list_classify, map_lookup.
+struct MapLookupPush {
     OutputLayout outputs;
     MapLayout map;
     uint firstGroup; // lens groups of the chunk
     uint count;      // lists
     int groupBits;   // 2^groupBits outputs of a pixel share a list
-    int thinBits;    // 2^thinBits of them are made in thin lists
+    int sparseBits;  // 2^sparseBits of them are made in sparse lists
     float lensScale; // as OutputPush
 };
 

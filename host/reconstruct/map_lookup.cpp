@@ -1,4 +1,4 @@
-#include "reconstruct/layers.h"
+#include "reconstruct/map_lookup.h"
 
 #include <cmath>
 #include <limits>
@@ -41,9 +41,9 @@ Lookup lookUp(const LayerMap& map, const Cluster& cluster) {
             cluster.slopeMin - gap,
             cluster.slopeMax + gap,
             levelSize(map.layout, level),
-            map.layout.texels * map.layout.origin / (1 << level),
+            map.layout.texelsPerPixel * map.layout.origin / (1 << level),
             levelBegin(map.layout, level),
-            float(map.layout.texels) / float(1 << level)};
+            float(map.layout.texelsPerPixel) / float(1 << level)};
 }
 
 /// Follows the ray x - slope * uv from a few slopes of the cluster to where the map has that slope.
@@ -84,7 +84,7 @@ vec4 layerAround(const Lookup& lookup, vec2 place) {
 
 /// Level of the map where lens positions are near enough to one another on a surface of this slope or more.
 float levelFor(float slope, const MapLayout& map) {
-    float spacing = float(map.texels) * map.spreadPerPx * glm::max(slope, 0.f);
+    float spacing = float(map.texelsPerPixel) * map.spreadPerPx * glm::max(slope, 0.f);
     int level = 0;
     for (; level + 1 < map.levels && spacing >= kLevelSpacing; ++level) spacing *= 0.5f;
     return float(level);
@@ -92,25 +92,25 @@ float levelFor(float slope, const MapLayout& map) {
 
 } // namespace
 
-Rung rungOf(const Bins& bins, std::span<const uint> bricks, const LensBox& lens, float lensScale,
-            const MapLayout& map) {
+ListClass classOfList(const Bins& bins, std::span<const uint> bricks, const LensBox& lens, float lensScale,
+                      const MapLayout& map) {
     const vec2 farthest = glm::max(glm::abs(lens.min), glm::abs(lens.max));
     const float lensRadius =
         glm::min(glm::sqrt(farthest.x * farthest.x + farthest.y * farthest.y), lensScale);
     const float lensWidth = glm::max(lens.max.x - lens.min.x, lens.max.y - lens.min.y);
-    Rung rung;
-    rung.thin = !bricks.empty() && bricks.size() <= std::size_t(kMaxLoopIterations);
+    ListClass listClass;
+    listClass.sparse = !bricks.empty() && bricks.size() <= std::size_t(kMaxLoopIterations);
     float finest = 1; ///< own radius, over R
     bool fits = bricks.size() <= std::size_t(kMaxLoopIterations);
     vec2 open(std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity());
     const auto close = [&] {
         const float least = glm::max(open.x, -open.y); // to either side
         const float most = glm::max(-open.x, open.y), reach = most * lensRadius;
-        rung.thin = rung.thin && most * lensWidth <= kThinPx;
-        rung.sharp = rung.sharp || least < kLeastSlope;
+        listClass.sparse = listClass.sparse && most * lensWidth <= kSparsePx;
+        listClass.inFocus = listClass.inFocus || least < kMinSlope;
         fits = fits && reach <= map.reachPx && (open.y - open.x) * lensRadius <= kWidestClusterPx &&
-               rung.clusters.size() < kMaxClusters;
-        rung.clusters.push_back({open.x, open.y, levelFor(least, map)});
+               listClass.clusters.size() < kMaxClusters;
+        listClass.clusters.push_back({open.x, open.y, levelFor(least, map)});
     };
     for (std::size_t i = 0; i < bricks.size(); ++i) {
         const Brick& brick = bins.bricks[bricks[i]];
@@ -122,9 +122,10 @@ Rung rungOf(const Bins& bins, std::span<const uint> bricks, const LensBox& lens,
         open = {glm::min(open.x, brick.slopeMin), glm::max(open.y, brick.slopeMax)};
     }
     if (!bricks.empty()) close();
-    const bool tooCoarse = finest * map.radiusPx * float(map.texels) < 1;
-    if (!fits || (rung.sharp && (tooCoarse || rung.clusters.size() > kSharpClusters))) rung.clusters.clear();
-    return rung;
+    const bool tooCoarse = finest * map.radiusPx * float(map.texelsPerPixel) < 1;
+    if (!fits || (listClass.inFocus && (tooCoarse || listClass.clusters.size() > kMaxInFocusClusters)))
+        listClass.clusters.clear();
+    return listClass;
 }
 
 std::vector<vec4> lensPoints(const OutputPattern& pattern) {
@@ -170,7 +171,7 @@ std::uint64_t tilePixels(ivec2 size) {
     return bits;
 }
 
-void addMapShare(std::vector<float>& share, const Rect& frame, const Band& band, const ListRungs& rungs,
+void addMapShare(std::vector<float>& share, const Rect& frame, const Band& band, const ListClasses& classes,
                  std::size_t groups) {
     share.resize(frame.area());
     const std::size_t columns = std::size_t(band.region.width() + kTileSize - 1) / kTileSize;
@@ -180,9 +181,9 @@ void addMapShare(std::vector<float>& share, const Rect& frame, const Band& band,
             const ivec2 position(x - band.region.x0, y - band.region.y0);
             const std::size_t tile = std::size_t(position.y / kTileSize) * columns + position.x / kTileSize;
             float& sum = share[std::size_t(y - frame.y0) * frame.width() + (x - frame.x0)];
-            for (std::size_t list = tile; list < rungs.codes.size(); list += tiles)
-                if ((rungs.missedOf(list) >> tileBit(position) & 1) == 0)
-                    sum += ((rungs.codes[list] & kSharpRung) != 0 ? 0.5f : 1.f) / float(groups);
+            for (std::size_t list = tile; list < classes.codes.size(); list += tiles)
+                if ((classes.missedOf(list) >> tileBit(position) & 1) == 0)
+                    sum += ((classes.codes[list] & kInFocusBit) != 0 ? 0.5f : 1.f) / float(groups);
         }
 }
 

@@ -15,7 +15,7 @@
 
 namespace slant {
 
-struct FieldDetails {
+struct FieldMetadata {
     Rect film;                         ///< the whole picture, of which the field's frame is a part
     std::optional<PixelFilter> filter; ///< what the picture is to be filtered with
     float lensRadius = 0;              ///< in the unit of w; 0 = not known
@@ -27,12 +27,12 @@ struct FieldDetails {
 
 /// Everything but the film, without what is not known, and the field's aperture unless it is a disc: strings,
 /// and floats for lengths.
-Metadata metadataOf(const LightField& field, const FieldDetails& details);
+Metadata metadataOf(const LightField& field, const FieldMetadata& details);
 
 /// Takes in one of them, without its "slant:"; false if it has another name. Throws Error(badInput) for a
 /// value out of range.
-bool setDetail(LightField& field, FieldDetails& details, const FileLocation& location, std::string_view name,
-               const std::string& value);
+bool setMetadata(LightField& field, FieldMetadata& details, const FileLocation& location,
+                 std::string_view name, const std::string& value);
 
 /// "gaussian 1.5 1.5 0.5": kind, radii in pixels, then sigma of gaussian, B and C of mitchell, tau of sinc.
 std::string filterText(const PixelFilter& filter);

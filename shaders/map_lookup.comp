@@ -1,6 +1,6 @@
 #version 460
 // The outputs of lists that the layer map serves: one invocation takes all those of a pixel. Where one of them meets
-// nothing, the pixel is left to reconstruct.comp, or the whole list. As host/reconstruct/layers.cpp.
+// nothing, the pixel is left to reconstruct.comp, or the whole list. As host/reconstruct/map_lookup.cpp.
 #extension GL_GOOGLE_include_directive : require
 #include "lib/map_texel.glsl"
 #include "lib/output.glsl"
@@ -11,10 +11,10 @@ layout(set = 0, binding = 1) uniform textureBuffer clusters;
 layout(set = 0, binding = 2) uniform utextureBuffer texels;
 layout(set = 0, binding = 3) uniform textureBuffer lensPoints;
 layout(set = 0, binding = 4) uniform utextureBuffer pattern;
-layout(set = 0, binding = 5) uniform utextureBuffer rungs;
+layout(set = 0, binding = 5) uniform utextureBuffer classes;
 layout(set = 0, binding = 6, rgba32f) uniform writeonly imageBuffer dense;
 layout(set = 0, binding = 7, r32ui) uniform uimageBuffer missed; // two a list: a bit for each pixel
-layout(push_constant) uniform Push { LayerPush push; };
+layout(push_constant) uniform Push { MapLookupPush push; };
 
 struct Lookup {
     float low, high; // slopes of the cluster, and half a gap to each side
@@ -28,8 +28,8 @@ struct Lookup {
 Lookup lookUp(vec3 cluster) {
     const float gap = 0.5 * push.map.surfaceGap;
     const int level = int(cluster.z), base = push.map.size.x * push.map.size.y;
-    return Lookup(cluster.x - gap, cluster.y + gap, push.map.size >> level, push.map.texels * push.map.origin >> level,
-                  4 * (base - (base >> 2 * level)) / 3, float(push.map.texels) * powerOfTwo(kFloatBias - uint(level)),
+    return Lookup(cluster.x - gap, cluster.y + gap, push.map.size >> level, push.map.texelsPerPixel * push.map.origin >> level,
+                  4 * (base - (base >> 2 * level)) / 3, float(push.map.texelsPerPixel) * powerOfTwo(kFloatBias - uint(level)),
                   push.map.code);
 }
 
@@ -120,10 +120,10 @@ void main() {
     const uvec3 tile = gl_WorkGroupID;
     const ivec2 position = ivec2(gl_GlobalInvocationID.xy), size = push.outputs.regionSize;
     const int list = (int(tile.z) * push.outputs.tileCount.y + int(tile.y)) * push.outputs.tileCount.x + int(tile.x);
-    const uint rung = texelFetch(rungs, list).x, clusterCount = rung & (kSharpRung - 1u);
+    const uint listClass = texelFetch(classes, list).x, clusterCount = listClass & (kInFocusBit - 1u);
     if (clusterCount == 0u) return;
-    const bool sharp = (rung & kSharpRung) != 0u, thin = (rung & kThinRung) != 0u;
-    const int groupSize = 1 << push.groupBits, taken = thin ? 1 << push.thinBits : groupSize;
+    const bool inFocus = (listClass & kInFocusBit) != 0u, sparse = (listClass & kSparseBit) != 0u;
+    const int groupSize = 1 << push.groupBits, taken = sparse ? 1 << push.sparseBits : groupSize;
     const int clusterBegin = int(texelFetch(listStart, list).x);
     const int firstOutput = (int(push.firstGroup) + int(tile.z)) * groupSize, firstPlane = int(tile.z) * groupSize;
     const ivec2 pixel = push.outputs.regionOrigin + position;
@@ -131,12 +131,12 @@ void main() {
     const bool inRegion = position.x < size.x && position.y < size.y;
     vec3 sum = vec3(0.0);
     for (int rank = 0; rank < groupSize; ++rank) {
-        if (rank >= taken && !sharp) break;
-        const int i = thin ? int(inOrder(texelFetch(pattern, firstOutput + rank))) : rank;
+        if (rank >= taken && !inFocus) break;
+        const int i = sparse ? int(inOrder(texelFetch(pattern, firstOutput + rank))) : rank;
         vec4 value = vec4(vec3(0.0), kLeftOut);
         if (rank < taken) {
             Output o = outputOnFilm(vec2(pixel) + 0.5, vec2(0.0), 0.0, kWholePixel);
-            if (sharp) {
+            if (inFocus) {
                 o = placed(pixel, texelFetch(pattern, firstOutput + i), seedOf(pixel, push.outputs.seed));
                 sum = vec3(0.0);
             }
@@ -146,9 +146,9 @@ void main() {
             }
             value = vec4(sum, o.positionCode);
         }
-        if (sharp && inRegion)
+        if (inFocus && inRegion)
             imageStore(dense, ((firstPlane + i) * size.y + position.y) * size.x + position.x, value);
     }
-    if (!sharp && inRegion)
+    if (!inFocus && inRegion)
         imageStore(dense, (firstPlane * size.y + position.y) * size.x + position.x, vec4(sum / float(taken), kWholePixel));
 }

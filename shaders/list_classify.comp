@@ -1,30 +1,30 @@
 #version 460
-// For each list: the clusters of surfaces that it sees, if its outputs can be taken from the layer map. As rungOf of
-// host/reconstruct/layers.cpp.
+// For each list: the clusters of surfaces that it sees, if its outputs can be taken from the layer map. As classOfList of
+// host/reconstruct/map_lookup.cpp.
 #extension GL_GOOGLE_include_directive : require
 #include "lib/candidate.glsl"
 #include "lib/grid.glsl"
 #include "lib/invocation.glsl"
-#include "shared/layers.h"
+#include "shared/layer_map.h"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform utextureBuffer listStart;
 layout(set = 0, binding = 1) uniform utextureBuffer listBricks;
 layout(set = 0, binding = 2) uniform textureBuffer lensBoxes;
-layout(set = 0, binding = 3, r32ui) uniform writeonly uimageBuffer rungs;
+layout(set = 0, binding = 3, r32ui) uniform writeonly uimageBuffer classes;
 layout(set = 0, binding = 4, rgba32f) uniform writeonly imageBuffer clusters; // from the list's start on
 layout(set = 0, binding = 5, r32ui) uniform writeonly uimageBuffer missed;     // two a list
-layout(push_constant) uniform Push { LayerPush push; };
+layout(push_constant) uniform Push { MapLookupPush push; };
 
 struct Clusters {
     uint count;
-    bool fits, sharp, thin;
+    bool fits, inFocus, sparse;
     vec2 open; // least and greatest slope
 };
 
 /// Level of the map where lens positions are near enough to one another on a surface of this slope or more.
 float levelFor(float slope) {
-    float spacing = float(push.map.texels) * push.map.spreadPerPx * max(slope, 0.0);
+    float spacing = float(push.map.texelsPerPixel) * push.map.spreadPerPx * max(slope, 0.0);
     int level = 0;
     for (; level + 1 < push.map.levels && spacing >= kLevelSpacing; ++level) spacing *= 0.5;
     return float(level);
@@ -33,8 +33,8 @@ float levelFor(float slope) {
 void close(inout Clusters found, float lensRadius, float lensWidth, uint listBegin) {
     const float least = max(found.open.x, -found.open.y);
     const float most = max(-found.open.x, found.open.y), reach = most * lensRadius;
-    found.sharp = found.sharp || least < kLeastSlope;
-    found.thin = found.thin && most * lensWidth <= kThinPx;
+    found.inFocus = found.inFocus || least < kMinSlope;
+    found.sparse = found.sparse && most * lensWidth <= kSparsePx;
     found.fits = found.fits && reach <= push.map.reachPx &&
                  (found.open.y - found.open.x) * lensRadius <= kWidestClusterPx && found.count < kMaxClusters;
     imageStore(clusters, int(listBegin + found.count), vec4(found.open, levelFor(least), 0.0));
@@ -63,12 +63,12 @@ void main() {
         found.open = vec2(min(found.open.x, brick.slopeMin), max(found.open.y, brick.slopeMax));
     }
     if (end > begin) close(found, lensRadius, lensWidth, begin);
-    const bool tooCoarse = finest * push.map.radiusPx * float(push.map.texels) < 1.0;
-    found.fits = found.fits && found.count > 0u && last == end && !(found.sharp && (tooCoarse || found.count > kSharpClusters));
-    uint rung = found.fits ? found.count : 0u;
-    if (found.fits && found.sharp) rung |= kSharpRung;
-    if (found.thin && last == end && end > begin) rung |= kThinRung;
-    imageStore(rungs, int(list), uvec4(rung));
+    const bool tooCoarse = finest * push.map.radiusPx * float(push.map.texelsPerPixel) < 1.0;
+    found.fits = found.fits && found.count > 0u && last == end && !(found.inFocus && (tooCoarse || found.count > kMaxInFocusClusters));
+    uint listClass = found.fits ? found.count : 0u;
+    if (found.fits && found.inFocus) listClass |= kInFocusBit;
+    if (found.sparse && last == end && end > begin) listClass |= kSparseBit;
+    imageStore(classes, int(list), uvec4(listClass));
     const uvec4 left = uvec4(found.fits ? 0u : ~0u);
     imageStore(missed, 2 * int(list), left);
     imageStore(missed, 2 * int(list) + 1, left);
