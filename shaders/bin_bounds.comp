@@ -12,7 +12,7 @@ layout(set = 0, binding = 1) uniform textureBuffer positions;
 layout(set = 0, binding = 2) uniform utextureBuffer brickOfRecord; // prefix sum of brickBegins
 layout(set = 0, binding = 3, r32ui) uniform uimageBuffer bounds;   // kBoundWords a brick
 layout(set = 0, binding = 4, r32ui) uniform writeonly uimageBuffer brickKeys;
-layout(set = 0, binding = 5) uniform textureBuffer radiances;
+layout(set = 0, binding = 5) uniform textureBuffer values;
 layout(push_constant) uniform Push { BinPush push; };
 
 void lower(int word, uint value) {
@@ -35,6 +35,6 @@ void main() {
     lower(word + 3, row);
     lower(word + 4, ~column);
     lower(word + 5, ~row);
-    lower(word + 6, floatBitsToUint(texelFetch(radiances, int(i)).w));
+    lower(word + 6, floatBitsToUint(texelFetch(values, int(i)).w));
     if (after > before) imageStore(brickKeys, int(after) - 1, uvec4(brickKey));
 }

@@ -7,13 +7,14 @@
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform utextureBuffer keys;
 layout(set = 0, binding = 1) uniform utextureBuffer indices;
-layout(set = 0, binding = 2) uniform textureBuffer samplePositions;
-layout(set = 0, binding = 3) uniform textureBuffer sampleRadiances;
+layout(set = 0, binding = 2) uniform textureBuffer samplePositions; // the last: radius ratio
+layout(set = 0, binding = 3) uniform textureBuffer areaExcess;
 layout(set = 0, binding = 4, rgba32f) uniform writeonly imageBuffer positions;
-layout(set = 0, binding = 5, rgba32f) uniform writeonly imageBuffer radiances;
+layout(set = 0, binding = 5, rgba32f) uniform writeonly imageBuffer values; // the last alone
 layout(set = 0, binding = 6, r32ui) uniform writeonly uimageBuffer brickBegins;
 layout(set = 0, binding = 7) uniform utextureBuffer stopped;
 layout(push_constant) uniform Push { BinPush push; };
+layout(constant_id = 0) const bool kCompoundLens = false;
 
 void main() {
     const uint i = linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
@@ -23,12 +24,12 @@ void main() {
         return;
     }
     const int index = int(texelFetch(indices, int(i)).x);
-    const vec4 position = texelFetch(samplePositions, index); // the last: excess of area
+    const vec4 position = texelFetch(samplePositions, index);
     const int block = blockOf(push.occlusion, position.xy, position.z, push.grid.origin);
-    const vec4 radiance = texelFetch(sampleRadiances, index);
-    const float weight = visibilityWeight(push.occlusion, texelFetch(stopped, block).x, radiance.w / sqrt(1.0 + position.w));
+    const float excess = kCompoundLens ? texelFetch(areaExcess, index).x : 0.0;
+    const float weight = visibilityWeight(push.occlusion, texelFetch(stopped, block).x, position.w / sqrt(1.0 + excess));
     imageStore(positions, int(i), vec4(position.xyz, weight));
-    imageStore(radiances, int(i), radiance);
+    imageStore(values, int(i), vec4(vec3(0.0), position.w));
     const uint cells = uint(push.grid.cellsPerBrick * push.grid.cellsPerBrick);
     const uint brick = texelFetch(keys, int(i)).x / cells;
     const bool begins = i == 0u || texelFetch(keys, int(i) - 1).x / cells != brick;

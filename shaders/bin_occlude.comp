@@ -6,7 +6,7 @@
 #include "lib/occlusion.glsl"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0) uniform textureBuffer samples; // three texels a sample: LightFieldSample
+layout(set = 0, binding = 0) uniform textureBuffer samples; // two texels a sample: LightFieldSample
 layout(set = 0, binding = 1, r32ui) uniform uimageBuffer stopped;
 layout(push_constant) uniform Push { BinPush push; };
 
@@ -14,8 +14,8 @@ void main() {
     const uint i = linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
     if (i >= push.count) return;
     const OcclusionLayout planes = push.occlusion;
-    const vec4 place = texelFetch(samples, int(3u * i));
-    const float slope = texelFetch(samples, int(3u * i + 1u)).z;
+    const vec4 place = texelFetch(samples, int(2u * i));
+    const float slope = texelFetch(samples, int(2u * i + 1u)).z;
     if (!isFollowed(planes, place.xy) || !(abs(slope) < kFarPx)) return; // disabled ones are far
     const vec2 origin = push.grid.origin;
     for (int plane = firstPlaneBehind(planes, slope, push.grid.surfaceGap); plane < planes.planeCount; ++plane) {

@@ -40,7 +40,7 @@ void visit(Candidate candidate, inout Sweep sweep) {
         if (!sweep.running) return;
     }
     // Where own radii are less than the tent's, there are more samples in it than it takes.
-    const float widened = min(candidate.radiance.w, sweep.maxRadiusRatio) / candidate.radiance.w;
+    const float widened = min(candidate.value.w, sweep.maxRadiusRatio) / candidate.value.w;
     candidate.weight *= widened * widened;
     addSample(sweep.surface, candidate, sweep.radius);
 }
@@ -54,18 +54,18 @@ void main() {
     if (place.x >= size.x || place.y >= size.y) return;
     const ivec2 tile = place / (kTileSize * side);
     const int list = tile.y * push.outputs.tileCount.x + tile.x;
-    const float widening = push.radiusPx / push.grid.radiusPx;
+    const float widening = push.baseRadiusPx / push.grid.radiusPx;
     const float fullWeight = kFullWeight * widening * widening;
-    const float maxRadiusRatio = push.radiusPx * float(side);
+    const float maxRadiusRatio = push.baseRadiusPx * float(side);
     const vec2 p = vec2(push.outputs.regionOrigin) + (vec2(place) + 0.5) * (1.0 / float(side));
     const uint begin = texelFetch(listStart, list).x, end = texelFetch(listStart, list + 1).x;
     Sweep sweep;
     sweep.count = 2;
     bool complete = true;
     for (int reach = 1; reach <= 2 && sweep.count > 1; ++reach) {
-        sweep = Sweep(true, push.radiusPx, maxRadiusRatio, push.grid.surfaceGap, fullWeight, slopeCode(push.grid),
+        sweep = Sweep(true, push.baseRadiusPx, maxRadiusRatio, push.grid.surfaceGap, fullWeight, slopeCode(push.grid),
                       noSurface(), 0, uvec4(kNoLayerWords, kNoLayerWords));
-        complete = forEachCandidate(push.grid, outputOnFilm(p, vec2(0.0), 0.0, 0.0), float(reach) * push.radiusPx,
+        complete = forEachCandidate(push.grid, outputOnFilm(p, vec2(0.0), 0.0, 0.0), float(reach) * push.baseRadiusPx,
                                     maxRadiusRatio, begin, end, sweep) && complete;
         if (sweep.surface.count > 0) close(sweep, true);
     }

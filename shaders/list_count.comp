@@ -22,7 +22,7 @@ void main() {
         const Brick brick = brickOf(texelFetch(bricks, int(i % push.brickTotal)));
         const uint group = i / push.brickTotal;
         const vec4 box = texelFetch(lensBoxes, int(push.firstGroup + group));
-        const ivec4 range = tilesOfBrick(brick, push.grid, push.outputs, box, int(group), push.radiusPx);
+        const ivec4 range = tilesOfBrick(brick, push.grid, push.outputs, box, int(group), push.marginPx);
         const ivec2 size = max(range.zw - range.xy, ivec2(0));
         tiles = uint(size.x * size.y);
     }

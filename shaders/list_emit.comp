@@ -27,7 +27,7 @@ void main() {
     const uint group = pair / push.brickTotal, brick = pair - group * push.brickTotal;
     const vec4 box = texelFetch(lensBoxes, int(push.firstGroup + group));
     const ivec4 range =
-        tilesOfBrick(brickOf(texelFetch(bricks, int(brick))), push.grid, push.outputs, box, int(group), push.radiusPx);
+        tilesOfBrick(brickOf(texelFetch(bricks, int(brick))), push.grid, push.outputs, box, int(group), push.marginPx);
     const int place = int(i - keyAt(pair)), width = range.z - range.x;
     const ivec2 tile = range.xy + ivec2(place % width, place / width);
     const ivec2 tiles = push.outputs.tileCount;

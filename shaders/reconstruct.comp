@@ -42,7 +42,7 @@ void visit(Candidate candidate, inout Sweep sweep) {
         return;
     }
     const float weight = candidate.weight * (1.0 - sqrt(candidate.distance2) * sweep.invRadius);
-    sweep.sum += weight * candidate.radiance.rgb;
+    sweep.sum += weight * candidate.value.rgb;
     sweep.weightSum += weight;
     sweep.slopeMax = max(sweep.slopeMax, candidate.slope);
     addPoint(sweep.hull, candidate.offset);

@@ -61,10 +61,10 @@ void main() {
     if (kCompoundLens) toSceneSide(o);
     const int list =
         ((int(k) >> push.groupBits) * outputs.tileCount.y + tile.y) * outputs.tileCount.x + tile.x;
-    const float widening = push.radiusPx / push.grid.radiusPx;
-    Sweep sweep = Sweep(true, push.radiusPx, push.grid.surfaceGap, kFullWeight * widening * widening, noSurface(),
+    const float widening = push.baseRadiusPx / push.grid.radiusPx;
+    Sweep sweep = Sweep(true, push.baseRadiusPx, push.grid.surfaceGap, kFullWeight * widening * widening, noSurface(),
                         Layers(vec3(0.0), 1.0));
-    const bool complete = forEachCandidate(push.grid, o, 2.0 * push.radiusPx, kAnyRadiusRatio, texelFetch(listStart, list).x,
+    const bool complete = forEachCandidate(push.grid, o, 2.0 * push.baseRadiusPx, kAnyRadiusRatio, texelFetch(listStart, list).x,
                                            texelFetch(listStart, list + 1).x, sweep);
     if (!complete) {
         imageStore(overflowList, int(imageAtomicAdd(counters, int(kOverflowCount), 1u)), uvec4(slot));

@@ -9,7 +9,7 @@
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform textureBuffer positions; // p.x, p.y, slope, square of its radius; in pixel order
-layout(set = 0, binding = 1) uniform textureBuffer radiances;
+layout(set = 0, binding = 1) uniform textureBuffer values;
 layout(set = 0, binding = 2) uniform utextureBuffer pattern;
 layout(set = 0, binding = 3, rgba32f) uniform writeonly imageBuffer dense;
 layout(set = 0, binding = 4, r32ui) uniform uimageBuffer counters;
@@ -49,7 +49,7 @@ WindowCandidate candidateAt(uint record, Output o) {
 void addSample(inout WindowSurface surface, WindowCandidate candidate, float alpha) {
     const float weight = expOfMinus(min(alpha * candidate.distance2, kMaxExponent));
     surface.count += 1;
-    surface.sum += weight * texelFetch(radiances, int(candidate.record)).rgb;
+    surface.sum += weight * texelFetch(values, int(candidate.record)).rgb;
     surface.weightSum += weight;
     addPoint(surface.hull, candidate.offset);
 }
@@ -115,7 +115,7 @@ void main() {
     if (found == 0) {
         const bool filled = search.fill != 0u && nearest2 < kInfinity;
         count(filled ? kFilledCount : kHoleCount);
-        const vec3 rgb = filled ? texelFetch(radiances, int(nearest)).rgb : vec3(0.0);
+        const vec3 rgb = filled ? texelFetch(values, int(nearest)).rgb : vec3(0.0);
         imageStore(dense, int(slot), vec4(o.weight * rgb, o.positionCode));
         return;
     }

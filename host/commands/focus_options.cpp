@@ -46,19 +46,16 @@ void addFocusOptions(CLI::App& command, FocusOptions& options) {
 }
 
 void checkFocusOptions(const FocusOptions& options, Method method) {
-    const bool otherLens = options.apertureScale || options.fStop || !options.aperture.empty();
-    if (options.refocuses() && (method == Method::box || method == Method::window))
-        throw Error(
-            ErrorCode::usage,
-            fmt::format("method {} looks for samples in their own pixels, which another focus moves them "
-                        "out of; choose another",
-                        nameOf(method)));
-    if (otherLens && method == Method::box)
-        throw Error(ErrorCode::usage,
-                    fmt::format("method {} takes the traced lens only; choose another", nameOf(method)));
+    ReconstructOptions reconstruction;
+    reconstruction.method = method;
+    reconstruction.anyFocus = true;
+    LensView view; // any other than traced
+    if (options.refocuses()) view.slopeShift = 1;
+    if (options.apertureScale || options.fStop || !options.aperture.empty()) view.apertureScale = 0;
+    checkView(reconstruction, view);
 }
 
-float lensScale(const FocusOptions& options, const FieldMetadata& details) {
+float apertureScale(const FocusOptions& options, const FieldMetadata& details) {
     if (!options.fStop) return options.apertureScale.value_or(1.f);
     if (!(details.focalLength > 0) || !(details.lensRadius > 0))
         throw Error(ErrorCode::usage,

@@ -1,7 +1,7 @@
 // How `reconstruct` looks through another lens than the one that a light field was traced with.
 #pragma once
 #include "lightfield/field_file.h"
-#include "reconstruct/method.h"
+#include "reconstruct/prepared_field.h"
 
 #include <CLI/CLI.hpp>
 #include <optional>
@@ -29,7 +29,7 @@ void checkFocusOptions(const FocusOptions& options, Method method);
 
 /// The lens radius over the traced one. Throws Error(usage) for an f-number where the file does not say what
 /// it takes.
-float lensScale(const FocusOptions& options, const FieldMetadata& details);
+float apertureScale(const FocusOptions& options, const FieldMetadata& details);
 
 /// Focus distance of each picture; unset: as traced. A pull takes even steps of 1/distance, in which blur is
 /// even.

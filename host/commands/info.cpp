@@ -58,8 +58,8 @@ std::string slopeText(const LightField& field) {
 
 std::string countsText(const LightField& field) {
     const SampleCounts counts = sampleCounts(field);
-    if (field.pixelStart.empty()) return fmt::to_string(counts.most);
-    return fmt::format("{} to {} ({:.4g} on average)", counts.least, counts.most, counts.mean);
+    if (field.pixelStart.empty()) return fmt::to_string(counts.max);
+    return fmt::format("{} to {} ({:.4g} on average)", counts.min, counts.max, counts.mean);
 }
 
 void line(std::string_view name, const std::string& value) {
@@ -74,7 +74,7 @@ void printText(const std::string& path, const FieldFile& file, const FieldSummar
     line("samples",
          fmt::format("{} in {} pixels, {} each, {}", field.samples.size(), sizeText(field.bounds),
                      countsText(field),
-                     field.auxiliary.empty() ? "without albedo and normals" : "with albedo and normals"));
+                     field.hasGuides() ? "with albedo and normals" : "without albedo and normals"));
     line("slope", slopeText(field));
 
     const DerivedCamera camera = deriveCamera(file);
@@ -124,9 +124,9 @@ void printJson(const std::string& path, const FieldFile& file, const FieldSummar
         {"film", rectJson(details.film)},
         {"frame", rectJson(field.frame)},
         {"bounds", rectJson(field.bounds)},
-        {"samplesPerPixel", {{"least", counts.least}, {"most", counts.most}, {"mean", counts.mean}}},
+        {"samplesPerPixel", {{"least", counts.min}, {"most", counts.max}, {"mean", counts.mean}}},
         {"samples", field.samples.size()},
-        {"auxiliary", !field.auxiliary.empty()},
+        {"auxiliary", field.hasGuides()},
         {"c1", field.slopeModel.c1},
         {"c2", field.slopeModel.c2},
         {"ownSlopes", hasOwnSlopes(field)},

@@ -87,10 +87,10 @@ void addWindowOptions(CLI::App& command, CommonOptions& options) {
 } // namespace
 
 void checkMethodOptions(const CommonOptions& options) {
-    if (options.method != Method::window && !options.windowOption.empty())
+    if (traitsOf(options.method).source != DenseSource::window && !options.windowOption.empty())
         throw Error(ErrorCode::usage, fmt::format("{} is for --method window, not {}", options.windowOption,
                                                   nameOf(options.method)));
-    if (options.method != Method::automatic && options.debugLayerMap)
+    if (!traitsOf(options.method).usesLayerMap && options.debugLayerMap)
         throw Error(ErrorCode::usage, fmt::format("--debug-image layer-map is for --method auto, not {}",
                                                   nameOf(options.method)));
 }
@@ -121,7 +121,7 @@ void addReconstructionOptions(CLI::App& command, CommonOptions& options) {
         ->type_name("NAME");
     addWindowOptions(command, options);
     const auto debugImage = [&options](const std::string& text) {
-        if (text != "list_classify")
+        if (text != "layer-map")
             throw CLI::ValidationError("--debug-image", fmt::format("'{}' is not layer-map", text));
         options.debugLayerMap = true;
     };
@@ -129,7 +129,7 @@ void addReconstructionOptions(CLI::App& command, CommonOptions& options) {
         .add_option_function<std::string>("--debug-image", debugImage,
                                           "of auto: write OUTPUT.layer-map.png, white where outputs came "
                                           "from the layer map, black where not")
-        ->type_name("list_classify");
+        ->type_name("layer-map");
     command
         .add_option("--device", options.device, "auto, cpu, or part of a Vulkan device's name (default auto)")
         ->type_name("NAME");

@@ -1,7 +1,7 @@
 // Options that several commands share, checked as they are parsed: whatever is out of range is a usage error.
 #pragma once
 #include "base/rect.h"
-#include "reconstruct/method.h"
+#include "reconstruct/options.h"
 
 #include <CLI/CLI.hpp>
 #include <charconv>

@@ -7,8 +7,8 @@
 #include "commands/stats_file.h"
 #include "lightfield/field_file.h"
 #include "lightfield/refocus.h"
-#include "reconstruct/auxiliary.h"
 #include "reconstruct/plan.h"
+#include "render/auxiliary.h"
 #include "report/work_monitor.h"
 
 #include <memory>
@@ -46,16 +46,16 @@ public:
         CommonOptions& common = options_.picture.common;
         common.seed = options_.seed.value_or(file_.details.seed);
         reconstruction_ = reconstructOptions(common, file_.details.filter.value_or(PixelFilter()), backend_);
-        reconstruction_.lensScale = lensScale(options_.focus, file_.details);
+        view_.apertureScale = apertureScale(options_.focus, file_.details);
         if (!options_.focus.aperture.empty())
-            reconstruction_.aperture = Aperture(readAperture(options_.focus.aperture, "", {}));
-        if (!file_.field.lensMap.empty() && (reconstruction_.lensScale != 1 || reconstruction_.aperture))
+            view_.aperture = Aperture(readAperture(options_.focus.aperture, "", {}));
+        if (!file_.field.lensMap.empty() && !view_.isTracedLens())
             throw Error(ErrorCode::usage, "the field is not that of a thin lens: what another aperture would "
                                           "make of its pupils is not known");
         reconstruction_.anyFocus = options_.focus.refocuses();
-        checkBudget(file_.field.frame, int(sampleCounts(file_.field).most), reconstruction_);
-        const double outside = shareOutside(apertureOf(file_.field, reconstruction_),
-                                            reconstruction_.lensScale, file_.field.aperture);
+        checkBudget(file_.field.frame, int(sampleCounts(file_.field).max), reconstruction_);
+        const double outside =
+            shareOutside(view_.apertureOf(file_.field), view_.apertureScale, file_.field.aperture);
         if (outside > kNegligible)
             monitor.warn(
                 fmt::format("{:.2g} % of this lens lies outside the traced one and is extrapolation: "
@@ -67,7 +67,7 @@ public:
         FieldPictures pictures(backend_, file_.field, reconstruction_, options_.compareWithCpu);
         if (focuses_.size() == 1) return single(pictures, monitor, watch);
         const std::size_t passes =
-            1 + (options_.picture.auxiliary ? auxiliarySets(!file_.field.auxiliary.empty()).size() : 0);
+            1 + (options_.picture.auxiliary ? auxiliarySets(file_.field.hasGuides()).size() : 0);
         const std::uint64_t share =
             passes * file_.field.frame.area() * std::uint64_t(reconstruction_.outputsPerPixel);
         monitor.beginStage("focus pull", focuses_.size() * share, "outputs");
@@ -107,16 +107,17 @@ private:
     }
 
     Image make(FieldPictures& pictures, const Focus& focus, Monitor& monitor, ReconstructReport& report) {
-        const float shift = focus.model.c2 - traced_.c2;
-        if (focus.distance || reconstruction_.lensScale > 1)
-            if (const int missing = missingOverscanPx(file_.field, shift, reconstruction_.lensScale);
-                missing > 0)
+        LensView view = view_;
+        view.slopeShift = focus.model.c2 - traced_.c2;
+        if (focus.distance || view.apertureScale > 1)
+            if (const int missing = missingOverscanPx(file_.field, view); missing > 0)
                 monitor.warn(
                     fmt::format("blur reaches {} pixels beyond the samples: borders may lack what enters "
                                 "from farther out",
                                 missing));
-        Image image = pictures.colours(shift, monitor, report);
-        if (options_.picture.auxiliary) pictures.addAuxiliary(image, shift, monitor, report);
+        Image image = pictures.colours(view, monitor, report);
+        if (options_.picture.auxiliary) pictures.addAuxiliary(image, view, monitor, report);
+        printAgreements(pictures.takeAgreements(), backend_);
         image.displayWindow = file_.details.film;
         warnOf(defects_, report.emptyPixels, monitor);
         return image;
@@ -128,8 +129,8 @@ private:
         json["c1"] = focus.model.c1;
         json["c2"] = focus.model.c2;
         if (focus.distance) json["focusDistance"] = *focus.distance;
-        if (reconstruction_.lensScale != 1) json["apertureScale"] = reconstruction_.lensScale;
-        if (reconstruction_.aperture) json["aperture"] = reconstruction_.aperture->shape().name;
+        if (view_.apertureScale != 1) json["apertureScale"] = view_.apertureScale;
+        if (view_.aperture) json["aperture"] = view_.aperture->shape().name;
         return json;
     }
 
@@ -140,6 +141,7 @@ private:
     std::vector<Focus> focuses_; ///< of each picture
     FieldDefects defects_;
     ReconstructOptions reconstruction_;
+    LensView view_; ///< of each picture, but for its focus
 };
 
 void runReconstruct(const FromFileOptions& options) {

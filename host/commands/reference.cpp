@@ -2,7 +2,7 @@
 #include "base/parallel.h"
 #include "commands/commands.h"
 #include "commands/picture_job.h"
-#include "report/brute_force.h"
+#include "render/brute_force.h"
 #include "trace/tracer.h"
 
 #include <memory>

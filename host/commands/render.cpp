@@ -1,22 +1,21 @@
 // slant render: the main job: trace a light field, reconstruct it, filter it.
+#include "render/render.h"
 #include "base/parallel.h"
 #include "commands/commands.h"
 #include "commands/picture_job.h"
 #include "commands/reconstruction.h"
-#include "reconstruct/plan.h"
-#include "trace/sample_pass.h"
 
 #include <memory>
 
 namespace slant::commands {
 namespace {
 
-struct RenderOptions {
+struct RenderCommand {
     PictureOptions picture;
     bool compareWithCpu = false;
 };
 
-void runRender(RenderOptions options) {
+void runRender(RenderCommand options) {
     const Stopwatch watch;
     const CommonOptions& common = options.picture.common;
     checkMethodOptions(common);
@@ -26,27 +25,21 @@ void runRender(RenderOptions options) {
     const Scene scene = readSceneFor(options.picture.input, common, monitor);
     if (options.picture.output.empty()) options.picture.output = scene.film.filename;
     checkOutputs(options.picture);
-    const ReconstructOptions reconstruction = reconstructOptions(common, scene.filter, backend);
-    checkBudget(scene.film.crop, scene.pixelSamples, reconstruction);
 
-    const Tracer tracer(scene, monitor);
-    SampleOptions sampling;
-    sampling.samplesPerPixel = scene.pixelSamples;
-    sampling.seed = common.seed;
-    sampling.auxiliary = options.picture.auxiliary;
-    LightField field = traceLightField(tracer, scene, sampling, monitor);
-    const FieldDefects defects = sanitize(field);
-
-    ReconstructReport report;
-    FieldPictures pictures(backend, field, reconstruction, options.compareWithCpu);
-    Image image = pictures.colours(0, monitor, report);
-    if (options.picture.auxiliary) pictures.addAuxiliary(image, 0, monitor, report);
-    image.displayWindow = {0, 0, scene.film.xResolution, scene.film.yResolution};
-    warnOf(defects, report.emptyPixels, monitor);
+    RenderOptions rendering;
+    rendering.sampling.samplesPerPixel = scene.pixelSamples;
+    rendering.sampling.seed = common.seed;
+    rendering.reconstruction = reconstructOptions(common, scene.filter, backend);
+    rendering.auxiliary = options.picture.auxiliary;
+    rendering.compareWithCpu = options.compareWithCpu;
+    const Rendering result = render(scene, rendering, backend, monitor);
+    printAgreements(result.agreements, backend);
+    warnOf(result.traced.defects, result.report.emptyPixels, monitor);
     nlohmann::ordered_json details = {{"scene", options.picture.input}};
-    addDetails(details, common, field, backend, report);
-    writeDebugImage(options.picture, field.frame, report);
-    writeOutputs(options.picture, image, details, stagesOf(monitor.stages(), report), watch.seconds());
+    addDetails(details, common, result.traced.field, backend, result.report);
+    writeDebugImage(options.picture, result.traced.field.frame, result.report);
+    writeOutputs(options.picture, result.image, details, stagesOf(monitor.stages(), result.report),
+                 watch.seconds());
 }
 
 } // namespace
@@ -54,7 +47,7 @@ void runRender(RenderOptions options) {
 void addRender(CLI::App& program) {
     CLI::App* command =
         program.add_subcommand("render", "Trace a few samples a pixel and reconstruct the picture");
-    const auto options = std::make_shared<RenderOptions>();
+    const auto options = std::make_shared<RenderCommand>();
     addPictureOptions(*command, options->picture);
     addReconstructionOptions(*command, options->picture.common);
     addCompareOption(*command, options->compareWithCpu);

@@ -54,7 +54,7 @@ void runSample(const FieldOptions& options) {
     SampleOptions sampling;
     sampling.samplesPerPixel = scene.pixelSamples;
     sampling.seed = common.seed;
-    sampling.auxiliary = options.auxiliary;
+    sampling.guides = options.auxiliary;
     const LightField field = traceLightField(tracer, scene, sampling, monitor);
 
     writeField(options.output, field, detailsOf(options, scene, tracer.camera()), monitor);

@@ -8,8 +8,8 @@ namespace slant {
 struct DeviceBins {
     GridLayout grid{};
     uint brickTotal = 0;
-    Buffer positions, radiances; ///< records in cell order
-    Buffer cellStart;            ///< brickTotal * cells of a brick + 1
+    Buffer positions, values; ///< records in cell order; of the values, the radius ratios alone at first
+    Buffer cellStart;         ///< brickTotal * cells of a brick + 1
     Buffer bricks;
     Buffer cellBases; ///< see bin_bricks.comp
     Buffer samples;   ///< index in the field of each record, and of what was not binned
@@ -20,15 +20,16 @@ public:
     explicit BinPasses(Device& device);
 
     /// Runs on `commands`, which must be empty, and leaves it empty.
-    DeviceBins run(CommandList& commands, const LightField& field, const BinScope& scope);
+    DeviceBins run(CommandList& commands, const SceneSideSamples& samples, const BinScope& scope);
 
 private:
     /// What bin_place makes of the samples, in sample order, and bin_occlude.
     struct Placed;
-    void place(CommandList& commands, const LightField& field, BinPush push, Placed& placed);
+    void place(CommandList& commands, std::span<const LightFieldSample> samples, BinPush push,
+               Placed& placed);
 
     Device& device_;
-    Pass place_, occlude_, gather_, bounds_, bricks_, cells_;
+    Pass place_, occlude_, bounds_, bricks_, cells_;
 };
 
 } // namespace slant

@@ -3,6 +3,7 @@
 #include "compute/vulkan.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace slant {
 namespace {
@@ -243,8 +244,8 @@ void CommandList::wait() {
     impl_->device.checkValidation();
 }
 
-const std::vector<PassTime>& CommandList::passTimes() const {
-    return impl_->times;
+std::vector<PassTime> CommandList::takePassTimes() {
+    return std::exchange(impl_->times, {});
 }
 
 } // namespace slant

@@ -51,9 +51,9 @@ public:
         wait();
     }
 
-    /// Sums over every run so far, in the order in which names first came; no seconds where the device has no
-    /// timestamps.
-    const std::vector<PassTime>& passTimes() const;
+    /// Sums over every run since the last call, in the order in which names first came; no seconds where the
+    /// device has no timestamps.
+    std::vector<PassTime> takePassTimes();
 
 private:
     void dispatchBytes(const Pass& pass, Bindings buffers, std::span<const std::byte> push, Grid grid);

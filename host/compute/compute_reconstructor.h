@@ -1,7 +1,7 @@
-// The reconstruction on a Vulkan device, stage by stage the same as CpuReconstructor.
+// The reconstruction on a Vulkan device.
 #pragma once
 #include "compute/device.h"
-#include "reconstruct/method.h"
+#include "reconstruct/prepared_field.h"
 
 namespace slant {
 
@@ -10,10 +10,9 @@ public:
     /// `device` must outlive it and the fields that it prepares.
     explicit ComputeReconstructor(Device& device) : device_(device) {}
 
-    std::unique_ptr<PreparedField> prepare(const LightField& field,
-                                           const ReconstructOptions& options) override;
-
 private:
+    std::unique_ptr<Engine> makeEngine(const SceneSideSamples& samples) override;
+
     Device& device_;
 };
 

@@ -16,13 +16,13 @@ std::array<std::uint32_t, 2> reachOf(const FilterTable& table) {
 
 } // namespace
 
-FilmPass::FilmPass(Device& device, const FilmBuffer& film)
-    : device_(device), table_(film.filter()), frame_(film.frame()),
+FilmPass::FilmPass(Device& device, const Rect& frame, FilterTable filter)
+    : device_(device), table_(std::move(filter)), frame_(frame),
       spread_(device, "film_spread", reachOf(table_)), gather_(device, "film_gather", reachOf(table_)),
       weights_(device, TexelFormat::r32f, table_.weights.size()),
-      sums_(device, TexelFormat::rgba32f, film.sums().size()) {
+      sums_(device, TexelFormat::rgba32f, frame.area()) {
     weights_.upload(std::span<const float>(table_.weights));
-    sums_.upload(std::span<const vec4>(film.sums()));
+    sums_.upload(std::vector<vec4>(frame.area(), vec4(0)));
 }
 
 void FilmPass::accumulate(CommandList& commands, const Buffer& dense, const Band& band, int planes,
@@ -54,8 +54,10 @@ void FilmPass::accumulate(CommandList& commands, const Buffer& dense, const Band
     commands.run();
 }
 
-void FilmPass::download(FilmBuffer& film) const {
-    sums_.download(std::span(film.sums()));
+std::vector<vec4> FilmPass::sums() const {
+    std::vector<vec4> sums(sums_.texels());
+    sums_.download(sums);
+    return sums;
 }
 
 } // namespace slant

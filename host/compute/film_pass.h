@@ -8,13 +8,14 @@ namespace slant {
 
 class FilmPass {
 public:
-    /// A film with the sums that `film` has.
-    FilmPass(Device& device, const FilmBuffer& film);
+    /// An empty film.
+    FilmPass(Device& device, const Rect& frame, FilterTable filter);
 
     /// As FilmBuffer::accumulate. Runs on `commands`, which must be empty, and leaves it empty.
     void accumulate(CommandList& commands, const Buffer& dense, const Band& band, int planes, int groupSize);
 
-    void download(FilmBuffer& film) const;
+    /// See Engine::film.
+    std::vector<vec4> sums() const;
 
 private:
     Device& device_;

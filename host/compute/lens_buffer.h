@@ -8,8 +8,11 @@
 namespace slant {
 
 /// kCompoundLens of lib/output_pattern.glsl.
+inline std::array<std::uint32_t, 1> compoundLens(bool isCompound) {
+    return {isCompound ? 1u : 0u};
+}
 inline std::array<std::uint32_t, 1> compoundLens(const LensMap& lens) {
-    return {lens.empty() ? 0u : 1u};
+    return compoundLens(!lens.empty());
 }
 
 inline Buffer lensBuffer(Device& device, const LensMap& lens) {

@@ -24,7 +24,7 @@ ListPasses::ListPasses(Device& device, const OutputPattern& pattern, const LensM
       lensBoxes_(uploadBoxes(device, pattern.groups)) {}
 
 DeviceLists ListPasses::run(CommandList& commands, const DeviceBins& bins, OutputPush push, float marginPx) {
-    push.radiusPx = marginPx;
+    push.marginPx = marginPx;
     if (!lens_.empty())
         lensBounds_ = lensTileBounds(lens_, pattern_, push.firstGroup, push.groupCount, push.grid,
                                      push.outputs, marginPx);

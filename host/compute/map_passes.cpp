@@ -22,16 +22,16 @@ void MapPasses::makeMap(CommandList& commands, const DeviceBins& bins, const Map
     push.outputs = mapTiles(layout_);
     push.groupCount = 1;
     push.brickTotal = bins.brickTotal;
-    push.radiusPx = layout_.tentPx;
+    push.baseRadiusPx = layout_.tentPx;
     OutputPattern center;
     center.groups = {{vec2(0), vec2(0)}};
     const LensMap noLens;
     ListPasses listPasses(device_, center, noLens);
-    const DeviceLists lists = listPasses.run(commands, bins, push, 2 * push.radiusPx);
+    const DeviceLists lists = listPasses.run(commands, bins, push, 2 * layout_.tentPx);
     Buffer counters(device_, TexelFormat::r32ui, kCounters), overflowList(device_, TexelFormat::r32ui, base);
     commands.fill(counters, 0);
     commands.dispatch(map_,
-                      {bins.positions, bins.radiances, bins.cellStart, lists.start, lists.cellBases,
+                      {bins.positions, bins.values, bins.cellStart, lists.start, lists.cellBases,
                        lists.bricks, texels_, counters, overflowList},
                       push, map_.gridOver(std::uint32_t(layout_.size.x), std::uint32_t(layout_.size.y)));
     commands.run();

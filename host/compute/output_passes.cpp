@@ -32,31 +32,32 @@ OutputPasses::Counters OutputPasses::counters() const {
 }
 
 OutputPasses::Result OutputPasses::run(CommandList& commands, ListPasses& listPasses, const DeviceBins& bins,
-                                       const DeviceLists& lists, const Left& left, const Buffer& missed,
+                                       const DeviceLists& lists, const ListWork& work, const Buffer& missed,
                                        OutputPush push, const Buffer& dense) {
     reserve(dense.texels());
     commands.fill(counters_, 0);
-    push.radiusPx = bins.grid.radiusPx;
+    push.baseRadiusPx = bins.grid.radiusPx;
     for (const auto& [items, bits] :
-         {std::pair(&left.whole, push.groupBits), {&left.sparse, push.takenBits}}) {
+         {std::pair(&work.whole, push.groupBits), {&work.sparse, push.takenBits}}) {
         push.count = uint(items->size());
         push.takenBits = bits;
         Buffer buffer(device_, TexelFormat::rgba32ui, items->size());
         buffer.upload(std::span(*items));
         commands.dispatch(
             nearest_,
-            {bins.positions, bins.radiances, bins.cellStart, lists.start, lists.cellBases, lists.bricks,
+            {bins.positions, bins.values, bins.cellStart, lists.start, lists.cellBases, lists.bricks,
              pattern_, dense, counters_, visibilityList_, overflowList_, buffer, aperture_, lensMap_, missed},
             push, nearest_.gridFor((std::uint64_t(push.count) * kTileSize * kTileSize) << bits));
         commands.run();
     }
 
     Result result;
+    SearchCounts& found = result.counts;
     const Counters first = counters();
-    result.visibility = push.count = first[kVisibilityCount];
+    found.visibility = push.count = first[kVisibilityCount];
     const auto look = [&](const DeviceLists& in) {
         commands.dispatch(visibility_,
-                          {bins.positions, bins.radiances, bins.cellStart, in.start, in.cellBases, in.bricks,
+                          {bins.positions, bins.values, bins.cellStart, in.start, in.cellBases, in.bricks,
                            pattern_, visibilityList_, dense, counters_, holeList_, overflowList_, aperture_,
                            lensMap_},
                           push, visibility_.gridFor(push.count));
@@ -64,19 +65,20 @@ OutputPasses::Result OutputPasses::run(CommandList& commands, ListPasses& listPa
         return counters();
     };
     const Counters second = look(lists);
-    result.widened = result.holes = second[kHoleCount];
-    for (int step = 0; step < kWidenings && result.holes > 0; ++step) {
-        push.radiusPx *= 2;
-        push.count = uint(result.holes);
+    found.widened = found.holes = second[kHoleCount];
+    for (int step = 0; step < kWidenings && found.holes > 0; ++step) {
+        push.baseRadiusPx *= 2;
+        push.count = uint(found.holes);
         std::swap(visibilityList_, holeList_);
-        const DeviceLists wide = listPasses.run(commands, bins, push, 2 * push.radiusPx);
+        const DeviceLists wide = listPasses.run(commands, bins, push, 2 * push.baseRadiusPx);
         const uint none = 0;
         counters_.upload(std::span(&none, 1), kHoleCount);
-        result.holes = look(wide)[kHoleCount];
+        found.holes = look(wide)[kHoleCount];
     }
     const uint overflowed = counters()[kOverflowCount];
-    result.visibility -= overflowed - first[kOverflowCount];
-    result.widened -= overflowed - second[kOverflowCount];
+    found.visibility -= overflowed - first[kOverflowCount];
+    found.widened -= overflowed - second[kOverflowCount];
+    found.overflowed = overflowed;
     result.overflowed.resize(overflowed);
     overflowList_.download(std::span(result.overflowed));
     std::sort(result.overflowed.begin(), result.overflowed.end());

@@ -1,6 +1,8 @@
 // Stages "reconstruct" and "visibility" on the device: the outputs of one chunk of lens groups over one band.
 #pragma once
 #include "compute/list_passes.h"
+#include "reconstruct/list_work.h"
+#include "reconstruct/report.h"
 
 #include <vector>
 
@@ -13,20 +15,15 @@ public:
 
     /// What one chunk met; what overflowed is in no other count.
     struct Result {
-        std::uint64_t visibility = 0, widened = 0, holes = 0;
+        SearchCounts counts;
         std::vector<uint> overflowed; ///< indices into dense that are still to be done, ascending
     };
 
-    /// Lists to search for (tile x, y, lens group, list): all their outputs, or 2^push.takenBits of a group.
-    struct Left {
-        std::vector<uvec4> whole, sparse;
-    };
-
-    /// Fills `dense` (planes of region pixels) for the lists `left`, in these the pixels
-    /// `missed`, 64 bits a list; `lists` have a margin of 2 R.
-    /// Runs on `commands`, which must be empty, and leaves it empty.
+    /// Fills `dense` (planes of region pixels) for the lists of `work`, in these the pixels `missed`, 64 bits
+    /// a list, of sparse ones 2^push.takenBits outputs of a group; `lists` have a margin of 2 R. Runs on
+    /// `commands`, which must be empty, and leaves it empty.
     Result run(CommandList& commands, ListPasses& listPasses, const DeviceBins& bins,
-               const DeviceLists& lists, const Left& left, const Buffer& missed, OutputPush push,
+               const DeviceLists& lists, const ListWork& work, const Buffer& missed, OutputPush push,
                const Buffer& dense);
 
     /// Entries of the output pattern.

@@ -15,11 +15,8 @@ struct DeepChannel {
 };
 
 /// Of LightFieldSample.
-inline constexpr std::array<DeepChannel, 11> kSampleChannels = {
-    {{"R", offsetof(LightFieldSample, r)},
-     {"G", offsetof(LightFieldSample, g)},
-     {"B", offsetof(LightFieldSample, b)},
-     {"A", offsetof(LightFieldSample, alpha), false},
+inline constexpr std::array<DeepChannel, 8> kSampleChannels = {
+    {{"A", offsetof(LightFieldSample, alpha), false},
      {"Z", offsetof(LightFieldSample, w), true, true},
      {"raster.x", offsetof(LightFieldSample, x), true, true},
      {"raster.y", offsetof(LightFieldSample, y), true, true},
@@ -28,14 +25,22 @@ inline constexpr std::array<DeepChannel, 11> kSampleChannels = {
      {"time", offsetof(LightFieldSample, t), false},
      {"slope", offsetof(LightFieldSample, slope), false, true}}};
 
-/// Of AuxiliarySample: all of them, or none.
-inline constexpr std::array<DeepChannel, 6> kAuxiliaryChannels = {
-    {{"albedo.R", offsetof(AuxiliarySample, albedo)},
-     {"albedo.G", offsetof(AuxiliarySample, albedo) + 4},
-     {"albedo.B", offsetof(AuxiliarySample, albedo) + 8},
-     {"N.X", offsetof(AuxiliarySample, normal)},
-     {"N.Y", offsetof(AuxiliarySample, normal) + 4},
-     {"N.Z", offsetof(AuxiliarySample, normal) + 8}}};
+/// A plane of values: three channels, float after float.
+struct DeepPlane {
+    std::array<DeepChannel, 3> channels;
+    std::vector<glm::vec3> SampleSet::*values;
+};
+
+constexpr DeepPlane deepPlane(const char* x, const char* y, const char* z,
+                              std::vector<glm::vec3> SampleSet::*values) {
+    return {{{{x, 0}, {y, sizeof(float)}, {z, 2 * sizeof(float)}}}, values};
+}
+
+inline constexpr DeepPlane kRadiancePlane = deepPlane("R", "G", "B", &SampleSet::radiance);
+/// All of them, or none.
+inline constexpr std::array<DeepPlane, 2> kGuidePlanes = {
+    deepPlane("albedo.R", "albedo.G", "albedo.B", &SampleSet::albedo),
+    deepPlane("N.X", "N.Y", "N.Z", &SampleSet::normal)};
 
 /// Read to tell moving samples from others; not kept.
 struct MotionSample {

@@ -206,8 +206,10 @@ void readSamples(const FileLocation& where, Imf::DeepScanLineInputFile& file, Fi
     const auto addAll = [&](const auto& channels, auto& samples, bool kept) {
         row.add(present(where, header, channels), samples.data(), sizeof samples[0], kept);
     };
+    addAll(kRadiancePlane.channels, field.radiance, true);
     addAll(kSampleChannels, field.samples, true);
-    if (!field.auxiliary.empty()) addAll(kAuxiliaryChannels, field.auxiliary, true);
+    if (field.hasGuides())
+        for (const DeepPlane& plane : kGuidePlanes) addAll(plane.channels, field.*plane.values, true);
     std::vector<MotionSample> motion; // of a row
     if (hasAny(header, kMotionChannels)) {
         std::size_t most = 0;
@@ -259,15 +261,17 @@ Imf::Header makeHeader(const LightField& field, const FieldMetadata& details,
 void encode(Imf::OStream& stream, const LightField& field, const FieldMetadata& details, Monitor& monitor) {
     std::vector<DeepChannel> channels(kSampleChannels.begin(), kSampleChannels.end());
     if (!hasOwnSlopes(field)) channels.pop_back();
+    std::vector<DeepPlane> planes{kRadiancePlane};
+    if (field.hasGuides()) planes.insert(planes.end(), kGuidePlanes.begin(), kGuidePlanes.end());
     std::vector<DeepChannel> all = channels;
-    if (!field.auxiliary.empty()) all.insert(all.end(), kAuxiliaryChannels.begin(), kAuxiliaryChannels.end());
 
     DeepRow row(field);
     // OpenEXR only reads from them.
     row.add(channels, const_cast<LightFieldSample*>(field.samples.data()), sizeof(LightFieldSample));
-    if (!field.auxiliary.empty())
-        row.add(kAuxiliaryChannels, const_cast<AuxiliarySample*>(field.auxiliary.data()),
-                sizeof(AuxiliarySample));
+    for (const DeepPlane& plane : planes) {
+        all.insert(all.end(), plane.channels.begin(), plane.channels.end());
+        row.add(plane.channels, const_cast<glm::vec3*>((field.*plane.values).data()), sizeof(glm::vec3));
+    }
 
     Imf::DeepScanLineOutputFile file(stream, makeHeader(field, details, all));
     file.setFrameBuffer(row.frameBuffer());
@@ -300,7 +304,10 @@ FieldFile readDeepExr(const std::string& path, Monitor& monitor) {
         Imf::DeepScanLineInputFile file(stream);
         takeSampleCounts(where, field, readCounts(file, field.bounds));
         requireBytes(input, field.bounds.area(), field.firstSample(field.bounds.area()));
-        allocateSamples(field, hasAny(header, kAuxiliaryChannels));
+        const bool guides =
+            std::any_of(kGuidePlanes.begin(), kGuidePlanes.end(),
+                        [&](const DeepPlane& plane) { return hasAny(header, plane.channels); });
+        allocateSamples(field, guides);
         readSamples(where, file, result, monitor);
     } catch (const Iex::BaseExc& error) {
         throw badInput(where, "is a damaged OpenEXR file: {}", error.what());

@@ -138,11 +138,10 @@ std::span<const float> numbersOf(const LensMap& map) {
     return {&map.texels()[0].x, 4 * map.texels().size()};
 }
 
-void allocateSamples(LightField& field, bool auxiliary) {
+void allocateSamples(LightField& field, bool guides) {
     const std::size_t count = field.firstSample(field.bounds.area());
     try {
-        field.samples.resize(count);
-        field.auxiliary.resize(auxiliary ? count : 0);
+        field.resize(count, guides);
     } catch (const std::exception&) { // bad_alloc or length_error
         throw Error(ErrorCode::resources, fmt::format("no memory for {} samples", count));
     }

@@ -48,6 +48,6 @@ LensMap lensMapOf(const FileLocation& location, std::span<const float> numbers);
 std::span<const float> numbersOf(const LensMap& map);
 
 /// Makes room for the samples of checked extents; throws Error(resources) where there is none.
-void allocateSamples(LightField& field, bool auxiliary);
+void allocateSamples(LightField& field, bool guides);
 
 } // namespace slant

@@ -40,9 +40,20 @@ void FieldDefects::add(const FieldDefects& other) {
     badPosition += other.badPosition;
 }
 
-void repair(LightFieldSample& s, FieldDefects& defects) {
+void SampleSet::resize(std::size_t count, bool guides) {
+    samples.resize(count);
+    radiance.resize(count);
+    albedo.resize(guides ? count : 0);
+    normal.resize(guides ? count : 0);
+}
+
+SampleSpans spansOf(SampleSet& set) {
+    return {set.samples, set.radiance, set.albedo, set.normal};
+}
+
+void repair(LightFieldSample& s, glm::vec3& radiance, FieldDefects& defects) {
     bool nonFinite = false, negative = false;
-    for (float* component : {&s.r, &s.g, &s.b}) repairComponent(*component, nonFinite, negative);
+    for (int i = 0; i < 3; ++i) repairComponent(radiance[i], nonFinite, negative);
     defects.nonFiniteRadiance += nonFinite;
     defects.negativeRadiance += negative;
 
@@ -61,8 +72,8 @@ SampleCounts sampleCounts(const LightField& field) {
     SampleCounts counts{field.samplesOf(0), field.samplesOf(0),
                         double(field.firstSample(pixels)) / double(pixels)};
     for (std::size_t i = 1; i < field.pixelStart.size(); ++i) {
-        counts.least = std::min(counts.least, field.samplesOf(i - 1));
-        counts.most = std::max(counts.most, field.samplesOf(i - 1));
+        counts.min = std::min(counts.min, field.samplesOf(i - 1));
+        counts.max = std::max(counts.max, field.samplesOf(i - 1));
     }
     return counts;
 }
@@ -93,37 +104,12 @@ bool isThinLens(const LightField& field) {
     return field.lensMap.empty() && !hasOwnSlopes(field);
 }
 
-LightField onSceneSide(const LightField& field) {
-    LightField sceneSide = field;
-    parallelFor(0, sceneSide.samples.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            LightFieldSample& s = sceneSide.samples[i];
-            const SceneRay place = field.lensMap.at({s.x, s.y}, {s.u, s.v});
-            s.x = place.xy.x;
-            s.y = place.xy.y;
-            s.u = place.uv.x;
-            s.v = place.uv.y;
-            s.r /= place.weight;
-            s.g /= place.weight;
-            s.b /= place.weight;
-            const vec3& m = place.filmMetric;
-            s.areaExcess = 1 / ((m.x * m.z - m.y * m.y) * place.openShare) - 1;
-            const float sum = s.x + s.y + s.u + s.v + s.r + s.g + s.b + s.areaExcess;
-            if (!(place.weight > 0 && std::isfinite(sum))) {
-                s = {};
-                s.slope = std::numeric_limits<float>::quiet_NaN();
-            }
-        }
-    });
-    return sceneSide;
-}
-
 FieldDefects sanitize(LightField& field) {
     FieldDefects sum;
     std::mutex mutex;
     parallelFor(0, field.samples.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
         FieldDefects local;
-        for (std::size_t i = first; i < last; ++i) repair(field.samples[i], local);
+        for (std::size_t i = first; i < last; ++i) repair(field.samples[i], field.radiance[i], local);
         const std::lock_guard lock(mutex);
         sum.add(local);
     });

@@ -30,7 +30,7 @@ SlopeModel focusedAt(const LightField& field, double distance) {
     return model;
 }
 
-int missingOverscanPx(const LightField& field, float slopeShift, float lensScale) {
+int missingOverscanPx(const LightField& field, const LensView& view) {
     const Rect &frame = field.frame, &bounds = field.bounds;
     const auto width = std::size_t(bounds.width());
     float missing = 0;
@@ -41,7 +41,7 @@ int missingOverscanPx(const LightField& field, float slopeShift, float lensScale
             float here = 0;
             for (std::size_t i = field.firstSample(first * width); i < field.firstSample(last * width); ++i) {
                 const LightFieldSample& s = field.samples[i];
-                const float radius = std::abs(s.slope + slopeShift) * lensScale;
+                const float radius = std::abs(s.slope + view.slopeShift) * view.apertureScale;
                 const glm::vec2 p = glm::vec2(s.x, s.y) - s.slope * glm::vec2(s.u, s.v);
                 if (!std::isfinite(radius) || !std::isfinite(p.x + p.y)) continue;
                 // A point of the frame that is spread so far has neighbours spread as far.

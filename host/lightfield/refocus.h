@@ -1,6 +1,6 @@
 // Another focus for a light field that was traced once.
 #pragma once
-#include "lightfield/lightfield.h"
+#include "lightfield/lens_view.h"
 
 #include <optional>
 
@@ -15,9 +15,8 @@ std::optional<double> focusDistance(const SlopeModel& model);
 /// for a pinhole, and for a distance that is not positive or makes blur infinite.
 SlopeModel focusedAt(const LightField& field, double distance);
 
-/// How many pixels beyond the samples of `bounds` blur reaches into the frame, where slopes are `slopeShift`
-/// greater than traced and the lens is `lensScale` times as wide: that deep, borders lack what enters from
-/// there. 0 if nothing is missing.
-int missingOverscanPx(const LightField& field, float slopeShift, float lensScale);
+/// How many pixels beyond the samples of `bounds` blur reaches into the frame, seen through another lens:
+/// that deep, borders lack what enters from there. 0 if nothing is missing.
+int missingOverscanPx(const LightField& field, const LensView& view);
 
 } // namespace slant

@@ -15,13 +15,13 @@ void addValue(ValueRange& range, float value) {
     range.high = std::max(range.high, value);
 }
 
-void addSample(FieldSummary& summary, const LightFieldSample& s, int column, int row) {
-    const std::array values = {s.x, s.y, s.u, s.v, s.t, s.w, s.slope, s.r, s.g, s.b};
+void addSample(FieldSummary& summary, const LightFieldSample& s, glm::vec3 radiance, int column, int row) {
+    const std::array values = {s.x, s.y, s.u, s.v, s.t, s.w, s.slope, radiance.r, radiance.g, radiance.b};
     for (std::size_t i = 0; i < values.size(); ++i) addValue(summary.ranges[i], values[i]);
     summary.background += std::isinf(s.w) && s.w > 0;
     summary.outsidePixel += std::floor(s.x) != float(column) || std::floor(s.y) != float(row);
     LightFieldSample copy = s;
-    repair(copy, summary.defects);
+    repair(copy, radiance, summary.defects);
 }
 
 void addSummary(FieldSummary& sum, const FieldSummary& part) {
@@ -44,7 +44,8 @@ FieldSummary summarize(const LightField& field) {
             for (std::size_t i = 0; i < width; ++i)
                 for (std::size_t k = field.firstSample(j * width + i);
                      k < field.firstSample(j * width + i + 1); ++k)
-                    addSample(local, field.samples[k], field.bounds.x0 + int(i), field.bounds.y0 + int(j));
+                    addSample(local, field.samples[k], field.radiance[k], field.bounds.x0 + int(i),
+                              field.bounds.y0 + int(j));
         const std::lock_guard lock(mutex);
         addSummary(sum, local);
     });

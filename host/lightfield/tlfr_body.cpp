@@ -26,12 +26,17 @@ constexpr std::size_t kRecordsAtATime = 1 << 14;
 constexpr std::size_t kTextAtATime = 1 << 25;
 
 LightFieldSample sampleOf(const Record& r, const SlopeModel& slope) {
-    return {r[0], r[1], r[4], r[5], r[6], r[3], slope(r[3]), std::isinf(r[3]) ? 0.f : 1.f,
-            r[7], r[8], r[9], 0};
+    return {r[0], r[1], r[4], r[5], r[6], r[3], slope(r[3]), std::isinf(r[3]) ? 0.f : 1.f};
 }
 
-Record recordOf(const LightFieldSample& s) {
-    return {s.x, s.y, 0, s.w, s.u, s.v, s.t, s.r, s.g, s.b, s.alpha, 0, 0, 0, 0, 0};
+glm::vec3 radianceOf(const Record& r) {
+    return {r[7], r[8], r[9]};
+}
+
+Record recordOf(const LightField& field, std::size_t i) {
+    const LightFieldSample& s = field.samples[i];
+    const glm::vec3& rgb = field.radiance[i];
+    return {s.x, s.y, 0, s.w, s.u, s.v, s.t, rgb.r, rgb.g, rgb.b, s.alpha, 0, 0, 0, 0, 0};
 }
 
 bool moves(const Record& r) {
@@ -104,12 +109,13 @@ Record parseLine(std::string_view line, const FileLocation& where) {
 /// Parses the lines of a piece; returns how many samples move.
 std::uint64_t parsePiece(const Piece& piece, const std::string& path, LightField& field) {
     std::uint64_t line = piece.firstLine, moving = 0;
-    LightFieldSample* sample = field.samples.data() + piece.firstSample;
+    std::uint64_t sample = piece.firstSample;
     forEachLine(piece.text, [&](std::string_view text) {
         ++line;
         if (isBlank(text)) return;
         const Record record = parseLine(text, {path, int(line), 0});
-        *sample++ = sampleOf(record, field.slopeModel);
+        field.samples[sample] = sampleOf(record, field.slopeModel);
+        field.radiance[sample++] = radianceOf(record);
         moving += moves(record);
     });
     return moving;
@@ -158,6 +164,7 @@ std::uint64_t readTlfrBinary(const InputFile& body, LightField& field, Monitor& 
             body.read(i * sizeof(Record), records.data(), count * sizeof(Record));
             for (std::size_t k = 0; k < count; ++k) {
                 field.samples[i + k] = sampleOf(records[k], field.slopeModel);
+                field.radiance[i + k] = radianceOf(records[k]);
                 movingHere += moves(records[k]);
             }
             monitor.advance(count);
@@ -200,7 +207,7 @@ void writeTlfrBinary(AtomicFile& body, const LightField& field, Monitor& monitor
     std::vector<Record> records;
     for (std::size_t i = 0; i < field.samples.size(); i += records.size()) {
         records.resize(std::min(kRecordsAtATime, field.samples.size() - i));
-        for (std::size_t k = 0; k < records.size(); ++k) records[k] = recordOf(field.samples[i + k]);
+        for (std::size_t k = 0; k < records.size(); ++k) records[k] = recordOf(field, i + k);
         body.write(records.data(), records.size() * sizeof(Record));
         monitor.advance(records.size());
     }
@@ -216,7 +223,7 @@ void writeTlfrText(AtomicFile& body, const LightField& field, Monitor& monitor) 
                 const std::size_t begin = std::min(i + piece * kRecordsAtATime, field.samples.size());
                 const std::size_t end = std::min(begin + kRecordsAtATime, field.samples.size());
                 for (std::size_t k = begin; k < end; ++k) {
-                    const Record record = recordOf(field.samples[k]);
+                    const Record record = recordOf(field, k);
                     for (std::size_t c = 0; c < kColumns; ++c)
                         appendNumber(pieces[piece], record[c], c + 1 < kColumns ? ',' : '\n');
                 }

@@ -28,11 +28,12 @@ struct Order {
     std::vector<uint> keys, samples;
 };
 
-Order sortedSamples(const LightField& field, const Rect& region, float marginPx, const GridLayout& grid) {
-    Order order{std::vector<uint>(field.samples.size()), std::vector<uint>(field.samples.size())};
-    parallelFor(0, field.samples.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
+Order sortedSamples(std::span<const LightFieldSample> samples, const Rect& region, float marginPx,
+                    const GridLayout& grid) {
+    Order order{std::vector<uint>(samples.size()), std::vector<uint>(samples.size())};
+    parallelFor(0, samples.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
-            const LightFieldSample& s = field.samples[i];
+            const LightFieldSample& s = samples[i];
             order.keys[i] =
                 reaches(s, region, marginPx) ? sortKey(grid, pinholePosition(s), s.slope) : kNotBinned;
             order.samples[i] = uint(i);
@@ -71,23 +72,25 @@ struct BrickBounds {
 
 } // namespace
 
-Bins binSamples(const LightField& field, const BinScope& scope) {
-    const SampleDensity density = densityOf(field);
+Bins binSamples(const SceneSideSamples& source, const BinScope& scope) {
+    const SampleDensity density = densityOf(source);
+    const std::span<const LightFieldSample> samples = source.samples();
     Bins bins;
-    bins.grid = chooseGrid(field, density, scope);
+    bins.grid = chooseGrid(samples, density, scope);
     const uint cellsPerBrick = uint(bins.grid.cellsPerBrick) * uint(bins.grid.cellsPerBrick);
-    Order order = sortedSamples(field, scope.region, marginPx(scope, density), bins.grid);
+    Order order = sortedSamples(samples, scope.region, marginPx(scope, density), bins.grid);
     const std::size_t count = order.keys.size();
 
     const OcclusionLayout occlusion = chooseOcclusion(bins.grid, density);
-    const std::vector<uint> stopped = countStopped(field, bins.grid, occlusion);
+    const std::vector<uint> stopped = countStopped(samples, bins.grid, occlusion);
 
     bins.positions.reserve(count);
-    bins.radiances.reserve(count);
+    bins.values.reserve(count);
     std::vector<BrickBounds> bricks;
     for (std::size_t record = 0; record < count; ++record) {
         const uint key = order.keys[record], cell = key % cellsPerBrick;
-        const LightFieldSample& s = field.samples[order.samples[record]];
+        const uint sample = order.samples[record];
+        const LightFieldSample& s = samples[sample];
         const vec2 p = pinholePosition(s);
         const float radiusRatio = radiusRatioAt(density, p, s.slope, bins.grid.radiusPx);
         if (bricks.empty() || key / cellsPerBrick != bricks.back().key)
@@ -96,15 +99,23 @@ Bins binSamples(const LightField& field, const BinScope& scope) {
                           s.slope, radiusRatio);
         // Cells up to this one begin here at the latest.
         bins.cellStart.resize((bricks.size() - 1) * cellsPerBrick + cell + 1, uint(record));
+        const float excess = source.areaExcess().empty() ? 0.f : source.areaExcess()[sample];
         bins.positions.emplace_back(p, s.slope,
                                     visibilityWeight(stopped, bins.grid, occlusion, p, s.slope,
-                                                     radiusRatio / glm::sqrt(1.f + s.areaExcess)));
-        bins.radiances.emplace_back(s.r, s.g, s.b, radiusRatio);
+                                                     radiusRatio / glm::sqrt(1.f + excess)));
+        bins.values.emplace_back(0, 0, 0, radiusRatio);
     }
     for (const BrickBounds& bounds : bricks) bins.bricks.push_back(bounds.brick(bins.grid));
     bins.cellStart.resize(bins.bricks.size() * cellsPerBrick + 1, uint(count));
     bins.samples = std::move(order.samples);
     return bins;
+}
+
+void takeValues(Bins& bins, const SceneSideSamples& samples, ValuePlane plane) {
+    parallelFor(0, bins.values.size(), 1 << 15, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            bins.values[i] = vec4(samples.value(plane, bins.samples[i]), bins.values[i].w);
+    });
 }
 
 } // namespace slant

@@ -23,10 +23,13 @@ struct Bins {
     std::vector<uint> cellStart; ///< bricks * cellsPerBrick^2 + 1: first record of each cell
     std::vector<vec4> positions; ///< records in cell order, in sample order within a cell: p.x, p.y, slope,
                                  ///< visibilityWeight
-    std::vector<vec4> radiances; ///< r, g, b, radiusRatioAt
+    std::vector<vec4> values;    ///< r, g, b of the plane that was taken last (0 before), radiusRatioAt
     std::vector<uint> samples;   ///< of each record: its index in the field
 };
 
-Bins binSamples(const LightField& field, const BinScope& scope);
+/// Without values.
+Bins binSamples(const SceneSideSamples& samples, const BinScope& scope);
+
+void takeValues(Bins& bins, const SceneSideSamples& samples, ValuePlane plane);
 
 } // namespace slant

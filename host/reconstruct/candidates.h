@@ -16,8 +16,8 @@ struct Candidate {
     vec2 offset;     ///< from the output, pixels of the film
     float distance2; ///< as if its own radius were that of the search
     float slope;
-    float weight;  ///< see visibilityWeight
-    vec4 radiance; ///< rgb; R over its own radius
+    float weight; ///< see visibilityWeight
+    vec4 value;   ///< rgb; R over its own radius
 };
 
 inline ivec2 cellAt(const GridLayout& grid, vec2 place) {
@@ -59,11 +59,11 @@ int forEachCandidate(const SearchContext& context, const Output& output, float r
                 if (output.compoundLens) offset = onFilm(output, offset);
                 const float distance2 = offset.x * offset.x + offset.y * offset.y;
                 if (!(distance2 < ownRadius * ownRadius)) continue;
-                const vec4& radiance = context.bins.radiances[record];
-                const float radiusRatio = glm::min(radiance.w, maxRadiusRatio);
+                const vec4& value = context.bins.values[record];
+                const float radiusRatio = glm::min(value.w, maxRadiusRatio);
                 const float scaled2 = distance2 * (radiusRatio * radiusRatio);
                 if (scaled2 < radius * radius &&
-                    !visit(Candidate{offset, scaled2, position.z, position.w, radiance}))
+                    !visit(Candidate{offset, scaled2, position.z, position.w, value}))
                     return iterations;
             }
         }

@@ -1,13 +1,11 @@
-// The reconstruction on the CPU: the clear version that the compute path is held against.
+// The reconstruction on the CPU.
 #pragma once
-#include "reconstruct/method.h"
+#include "reconstruct/prepared_field.h"
 
 namespace slant {
 
 class CpuReconstructor final : public Reconstructor {
-public:
-    std::unique_ptr<PreparedField> prepare(const LightField& field,
-                                           const ReconstructOptions& options) override;
+    std::unique_ptr<Engine> makeEngine(const SceneSideSamples& samples) override;
 };
 
 } // namespace slant

@@ -21,13 +21,13 @@ std::vector<uint> summedCounts(const LightField& field) {
     return sums;
 }
 
-float leastAround(const LightField& field, const SampleDensity& density) {
+float leastAround(std::span<const LightFieldSample> samples, const SampleDensity& density) {
     float least = std::numeric_limits<float>::infinity();
     std::mutex mutex;
-    parallelFor(0, field.samples.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
+    parallelFor(0, samples.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
         float local = std::numeric_limits<float>::infinity();
         for (std::size_t i = first; i < last; ++i) {
-            const LightFieldSample& s = field.samples[i];
+            const LightFieldSample& s = samples[i];
             if (std::isfinite(s.slope))
                 local = std::min(local, samplesAround(density, pinholePosition(s), s.slope));
         }
@@ -39,7 +39,8 @@ float leastAround(const LightField& field, const SampleDensity& density) {
 
 } // namespace
 
-SampleDensity densityOf(const LightField& field) {
+SampleDensity densityOf(const SceneSideSamples& samples) {
+    const LightField& field = samples.field();
     SampleDensity density;
     if (field.pixelStart.empty()) {
         density.least = density.typical = float(field.samplesPerPixel);
@@ -49,7 +50,7 @@ SampleDensity densityOf(const LightField& field) {
                       ivec2(field.bounds.width(), field.bounds.height())};
     density.sums = summedCounts(field);
     density.typical = float(sampleCounts(field).mean);
-    density.least = leastAround(field, density);
+    density.least = leastAround(samples.samples(), density);
     return density;
 }
 

@@ -6,7 +6,7 @@
 // the pixel is in which they happen to be seen from the lens's centre. Pixels are summed over a square of
 // that disc's area, 3 x 3 pixels at least.
 #pragma once
-#include "lightfield/lightfield.h"
+#include "lightfield/scene_side.h"
 #include "shared/reconstruct.h"
 
 #include <vector>
@@ -20,11 +20,12 @@ inline vec2 pinholePosition(const LightFieldSample& s) {
 
 struct SampleDensity {
     DensityLayout layout{};
-    std::vector<uint> sums{0};    ///< modulo 2^32; one texel without use where all pixels have as many
-    float least = 0, typical = 0; ///< samples a pixel where the field's samples are sparsest, and on average
+    std::vector<uint> sums{0}; ///< modulo 2^32; one texel without use where all pixels have as many
+    float least = 0,
+          typical = 0; ///< samples per pixel where the field's samples are sparsest, and on average
 };
 
-SampleDensity densityOf(const LightField& field);
+SampleDensity densityOf(const SceneSideSamples& samples);
 
 /// Samples a pixel. As lib/density.glsl.
 float samplesAround(const SampleDensity& density, vec2 p, float slope);

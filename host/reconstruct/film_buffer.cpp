@@ -89,20 +89,19 @@ void FilmBuffer::accumulate(const DenseSamples& dense, int y0, int y1) {
                 });
 }
 
-Image FilmBuffer::toImage(std::uint64_t& emptyPixels) const {
-    Image image(frame_, {"R", "G", "B"});
+Image filmImage(const Rect& frame, const std::vector<vec4>& sums, std::uint64_t& emptyPixels) {
+    Image image(frame, {"R", "G", "B"});
     emptyPixels = 0;
-    for (std::size_t i = 0; i < sums_.size(); ++i) {
-        const vec4& sum = sums_[i];
-        const bool empty = !(sum.w > 0);
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        const bool empty = !(sums[i].w > 0);
         emptyPixels += empty;
-        for (int c = 0; c < 3; ++c) image.pixels[3 * i + c] = empty ? 0 : sum[c] / sum.w;
+        for (int c = 0; c < 3; ++c) image.pixels[3 * i + std::size_t(c)] = empty ? 0 : sums[i][c] / sums[i].w;
     }
     return image;
 }
 
-DenseSamples denseFromInput(const LightField& field, const Rect& region) {
-    const std::size_t planes = sampleCounts(field).most;
+DenseSamples denseFromInput(const LightField& field, ValuePlane plane, const Rect& region) {
+    const std::size_t planes = sampleCounts(field).max;
     DenseSamples dense{region, std::vector<vec4>(region.area() * planes, vec4(0, 0, 0, -1))};
     parallelFor(0, std::size_t(region.height()), 1, [&](std::size_t first, std::size_t last) {
         for (int j = int(first); j < int(last); ++j)
@@ -115,10 +114,11 @@ DenseSamples denseFromInput(const LightField& field, const Rect& region) {
                 // Which samples stand in once more than others is left to chance.
                 const std::size_t turn = count < planes ? hash(uint(pixel)) : 0;
                 for (std::size_t k = 0; count > 0 && k < planes; ++k) {
-                    const LightFieldSample& s = field.samples[field.firstSample(pixel) + (k + turn) % count];
+                    const std::size_t sample = field.firstSample(pixel) + (k + turn) % count;
+                    const LightFieldSample& s = field.samples[sample];
                     if (std::isnan(s.slope)) continue; // disabled by sanitize
                     dense.samples[k * region.area() + std::size_t(j) * region.width() + i] =
-                        vec4(s.r, s.g, s.b, positionCode(s.x - float(x), s.y - float(y)));
+                        vec4(valueOf(field, plane, sample), positionCode(s.x - float(x), s.y - float(y)));
                 }
             }
     });

@@ -1,7 +1,7 @@
 // Stage "pixel_filter": dense samples through the pixel filter into the film, and the film into an image.
 #pragma once
 #include "image/image.h"
-#include "lightfield/lightfield.h"
+#include "lightfield/value_plane.h"
 #include "reconstruct/filter_table.h"
 
 #include <vector>
@@ -31,12 +31,8 @@ public:
     /// rows and the filter's reach around them.
     void accumulate(const DenseSamples& dense, int y0, int y1);
 
-    /// Divides by the weights. Pixels without weight are black and counted.
-    Image toImage(std::uint64_t& emptyPixels) const;
-
     const Rect& frame() const { return frame_; }
     const FilterTable& filter() const { return filter_; }
-    std::vector<vec4>& sums() { return sums_; }
     const std::vector<vec4>& sums() const { return sums_; }
 
 private:
@@ -48,9 +44,12 @@ private:
     std::vector<vec4> sums_;
 };
 
-/// Input samples as dense planes, as many as the pixel with most samples has. Others repeat theirs, so that
-/// all pixels weigh the same. Those that sanitize disabled are left out; pixels of `region` outside `bounds`
-/// have none.
-DenseSamples denseFromInput(const LightField& field, const Rect& region);
+/// Sums of a frame, divided by their weights: R, G, B. Pixels without weight are black and counted.
+Image filmImage(const Rect& frame, const std::vector<vec4>& sums, std::uint64_t& emptyPixels);
+
+/// Input samples as dense planes, with their values, with their values, as many as the pixel with most
+/// samples has. Others repeat theirs, so that all pixels weigh the same. Those that sanitize disabled are
+/// left out; pixels of `region` outside `bounds` have none.
+DenseSamples denseFromInput(const LightField& field, ValuePlane plane, const Rect& region);
 
 } // namespace slant

@@ -40,13 +40,13 @@ struct Bounds {
     }
 };
 
-Bounds boundsOf(const LightField& field, const Rect& region, float marginPx) {
+Bounds boundsOf(std::span<const LightFieldSample> samples, const Rect& region, float marginPx) {
     Bounds all;
     std::mutex mutex;
-    parallelFor(0, field.samples.size(), 1 << 15, [&](std::size_t first, std::size_t last) {
+    parallelFor(0, samples.size(), 1 << 15, [&](std::size_t first, std::size_t last) {
         Bounds local;
         for (std::size_t i = first; i < last; ++i) {
-            const LightFieldSample& s = field.samples[i];
+            const LightFieldSample& s = samples[i];
             if (reaches(s, region, marginPx)) local.add(pinholePosition(s), s.slope);
         }
         const std::lock_guard lock(mutex);
@@ -82,9 +82,10 @@ float largestSlope(const GridLayout& grid) {
                     std::abs(grid.slopeMin + float(grid.bucketCount) / grid.invBucket));
 }
 
-GridLayout chooseGrid(const LightField& field, const SampleDensity& density, const BinScope& scope) {
+GridLayout chooseGrid(std::span<const LightFieldSample> samples, const SampleDensity& density,
+                      const BinScope& scope) {
     const Rect& region = scope.region;
-    Bounds bounds = boundsOf(field, region, marginPx(scope, density));
+    Bounds bounds = boundsOf(samples, region, marginPx(scope, density));
     GridLayout grid{};
     grid.sampleCount = uint(bounds.count);
     if (bounds.count == 0) bounds.add(vec2(0), 0);

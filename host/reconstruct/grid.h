@@ -36,6 +36,7 @@ float largestSlope(const GridLayout& grid);
 /// Lays the grid over the samples that are binned, with fewer than 2^32 cells in all, so that a sort key
 /// has 32 bits. What lies further off than half the picture goes into the bricks of the rim and the first and
 /// last bucket, which reach to infinity.
-GridLayout chooseGrid(const LightField& field, const SampleDensity& density, const BinScope& scope);
+GridLayout chooseGrid(std::span<const LightFieldSample> samples, const SampleDensity& density,
+                      const BinScope& scope);
 
 } // namespace slant

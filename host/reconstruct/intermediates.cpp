@@ -20,25 +20,24 @@ void forEachBlock(std::span<const uint> words, Visit&& visit) {
 
 } // namespace
 
-void IntermediateRecorder::stage(const std::string& name, std::span<const uint> words) {
-    Stage& stage = stages_.emplace_back();
-    stage.name = name;
-    stage.words = words.size();
+void IntermediateRecorder::receive(const std::string& name, std::span<const uint> words) {
+    Recorded& recorded = all_.emplace_back();
+    recorded.name = name;
+    recorded.words = words.size();
     forEachBlock(words,
-                 [&](std::size_t, std::span<const uint> block) { stage.blocks.push_back(hashOf(block)); });
+                 [&](std::size_t, std::span<const uint> block) { recorded.blocks.push_back(hashOf(block)); });
 }
 
-void IntermediateComparer::stage(const std::string& name, std::span<const uint> words) {
+void IntermediateComparer::receive(const std::string& name, std::span<const uint> words) {
     const std::size_t index = next_++;
     if (difference_) return;
-    if (index >= expected_.stages().size() || expected_.stages()[index].name != name ||
-        expected_.stages()[index].words != words.size()) {
-        const std::size_t expectedWords =
-            index < expected_.stages().size() ? expected_.stages()[index].words : 0;
+    if (index >= expected_.all().size() || expected_.all()[index].name != name ||
+        expected_.all()[index].words != words.size()) {
+        const std::size_t expectedWords = index < expected_.all().size() ? expected_.all()[index].words : 0;
         difference_ = IntermediateDifference{index, name, expectedWords, words.size(), 0, {}};
         return;
     }
-    const auto& blocks = expected_.stages()[index].blocks;
+    const auto& blocks = expected_.all()[index].blocks;
     forEachBlock(words, [&](std::size_t first, std::span<const uint> block) {
         if (difference_ || hashOf(block) == blocks[first / IntermediateRecorder::kBlockWords]) return;
         difference_ = IntermediateDifference{
@@ -47,13 +46,13 @@ void IntermediateComparer::stage(const std::string& name, std::span<const uint> 
 }
 
 std::optional<IntermediateDifference> IntermediateComparer::difference() const {
-    if (difference_ || next_ == expected_.stages().size()) return difference_;
-    const auto& missing = expected_.stages()[next_];
+    if (difference_ || next_ == expected_.all().size()) return difference_;
+    const auto& missing = expected_.all()[next_];
     return IntermediateDifference{next_, missing.name, missing.words, 0, 0, {}};
 }
 
-void IntermediateReader::stage(const std::string&, std::span<const uint> words) {
-    if (next_++ != stage_ || firstWord_ >= words.size()) return;
+void IntermediateReader::receive(const std::string&, std::span<const uint> words) {
+    if (next_++ != index_ || firstWord_ >= words.size()) return;
     const auto block = words.subspan(firstWord_, std::min(count_, words.size() - firstWord_));
     words_.assign(block.begin(), block.end());
 }

@@ -1,32 +1,44 @@
-// Two runs of the same reconstruction, compared stage by stage without keeping what the stages made: a hash
-// of every block of words is enough to find the first difference, and a third run to read it.
+// Intermediates: what the stages of a reconstruction leave, as words, and two runs compared by them without
+// keeping them: a hash of every block of words is enough to find the first difference, and a third run to
+// read it.
 #pragma once
-#include "reconstruct/method.h"
+#include "shared/types.h"
 
 #include <optional>
+#include <span>
+#include <string>
+#include <vector>
 
 namespace slant {
+
+/// Receives what the stages make, in the order in which they run, as 32-bit words. CPU and compute make the
+/// same intermediates with the same words, so that the first difference names the stage at fault.
+class IntermediateObserver {
+public:
+    virtual ~IntermediateObserver() = default;
+    virtual void receive(const std::string& name, std::span<const uint> words) = 0;
+};
 
 /// Keeps hashes of what the first run makes.
 class IntermediateRecorder final : public IntermediateObserver {
 public:
     static constexpr std::size_t kBlockWords = 1024;
 
-    struct Stage {
+    struct Recorded {
         std::string name;
         std::size_t words = 0;
         std::vector<std::uint64_t> blocks;
     };
-    void stage(const std::string& name, std::span<const uint> words) override;
-    const std::vector<Stage>& stages() const { return stages_; }
+    void receive(const std::string& name, std::span<const uint> words) override;
+    const std::vector<Recorded>& all() const { return all_; }
 
 private:
-    std::vector<Stage> stages_;
+    std::vector<Recorded> all_;
 };
 
 /// Where the second run first differed.
 struct IntermediateDifference {
-    std::size_t stage = 0; ///< in the order of the run
+    std::size_t index = 0; ///< in the order of the run
     std::string name;
     std::size_t expectedWords = 0, gotWords = 0;
     std::size_t firstWord = 0; ///< of `got`
@@ -37,7 +49,7 @@ struct IntermediateDifference {
 class IntermediateComparer final : public IntermediateObserver {
 public:
     explicit IntermediateComparer(const IntermediateRecorder& expected) : expected_(expected) {}
-    void stage(const std::string& name, std::span<const uint> words) override;
+    void receive(const std::string& name, std::span<const uint> words) override;
 
     /// The first difference, if any; call it when the run is over.
     std::optional<IntermediateDifference> difference() const;
@@ -51,13 +63,13 @@ private:
 /// Picks the words of one block out of a repetition of the first run.
 class IntermediateReader final : public IntermediateObserver {
 public:
-    IntermediateReader(std::size_t stage, std::size_t firstWord, std::size_t count)
-        : stage_(stage), firstWord_(firstWord), count_(count) {}
-    void stage(const std::string& name, std::span<const uint> words) override;
+    IntermediateReader(std::size_t index, std::size_t firstWord, std::size_t count)
+        : index_(index), firstWord_(firstWord), count_(count) {}
+    void receive(const std::string& name, std::span<const uint> words) override;
     const std::vector<uint>& words() const { return words_; }
 
 private:
-    std::size_t stage_, firstWord_, count_, next_ = 0;
+    std::size_t index_, firstWord_, count_, next_ = 0;
     std::vector<uint> words_;
 };
 

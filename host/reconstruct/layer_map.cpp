@@ -32,7 +32,7 @@ ivec2 aligned(vec2 px, bool up) {
 
 int mapTexelsPerPixel(const LightField& field) {
     // From two samples a pixel on, wider texels soften what is in focus.
-    return sampleCounts(field).most <= 1 ? 1 : kMaxTexelsPerPixel;
+    return sampleCounts(field).max <= 1 ? 1 : kMaxTexelsPerPixel;
 }
 
 float mapReach(const GridLayout& grid, float lensScale) {
@@ -122,7 +122,7 @@ MapTexel resolveWithin(const SearchContext& context, const MapLayout& map, ivec2
             if (texel.count == kMapLayers) return false;
         }
         // Where own radii are less than the tent's, there are more samples in it than it takes.
-        const float widened = glm::min(candidate.radiance.w, maxRadiusRatio) / candidate.radiance.w;
+        const float widened = glm::min(candidate.value.w, maxRadiusRatio) / candidate.value.w;
         candidate.weight *= widened * widened;
         addSample(surface, candidate, radius);
         return true;

@@ -168,10 +168,12 @@ TileRange tilesOfCompoundLens(const Brick& brick, const GridLayout& grid, const 
     return {ivec2(columns.x, rows.x), ivec2(columns.y, rows.y)};
 }
 
-Rect searchRegionOf(const LightField& field, const FilterTable& filter) {
+Rect searchRegionOf(const SceneSideSamples& source, const FilterTable& filter) {
+    const LightField& field = source.field();
+    const std::span<const LightFieldSample> samples = source.samples();
     const Rect region = outputRegion(field.frame, filter);
     if (field.lensMap.empty()) return region;
-    const float marginPx = widestSearchPx(densityOf(field));
+    const float marginPx = widestSearchPx(densityOf(source));
     const OutputPattern whole = makeOutputPattern(1, 0);
     Interval seen;
     float farthest = 1, widest = 1; // from the pupil's centre; pixels of the scene's side to one of the film
@@ -185,11 +187,10 @@ Rect searchRegionOf(const LightField& field, const FilterTable& filter) {
     if (!(seen.low.x <= seen.high.x)) return region; // all dark
     float slope = 0;
     std::mutex mutex;
-    parallelFor(0, field.samples.size(), 1 << 15, [&](std::size_t first, std::size_t last) {
+    parallelFor(0, samples.size(), 1 << 15, [&](std::size_t first, std::size_t last) {
         float local = 0;
         for (std::size_t i = first; i < last; ++i)
-            if (std::isfinite(field.samples[i].slope))
-                local = std::max(local, std::abs(field.samples[i].slope));
+            if (std::isfinite(samples[i].slope)) local = std::max(local, std::abs(samples[i].slope));
         const std::lock_guard lock(mutex);
         slope = std::max(slope, local);
     });

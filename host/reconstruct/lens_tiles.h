@@ -25,6 +25,6 @@ TileRange tilesOfCompoundLens(const Brick& brick, const GridLayout& grid, const 
 /// The region for whose outputs the samples of a picture are binned: its pixels and the filter's reach. Of a
 /// field with a lens map it is on the scene's side, and with what its metric and pupils ask for beyond
 /// widestSearchPx.
-Rect searchRegionOf(const LightField& field, const FilterTable& filter);
+Rect searchRegionOf(const SceneSideSamples& samples, const FilterTable& filter);
 
 } // namespace slant

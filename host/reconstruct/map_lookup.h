@@ -8,17 +8,10 @@
 #pragma once
 #include "reconstruct/layer_map.h"
 #include "reconstruct/output_pattern.h"
-#include "reconstruct/plan.h"
 
 #include <optional>
 
 namespace slant {
-
-/// Whether a method takes outputs of the field from a layer map. Through a lens of many surfaces it does not:
-/// there every output has its own metric and its own part of a distorted picture.
-inline bool usesLayers(const LightField& field, Method method) {
-    return method == Method::automatic && field.lensMap.empty();
-}
 
 struct ListClass {
     std::vector<Cluster> clusters; ///< front to back; empty where outputs have to be searched for in the bins
@@ -36,30 +29,6 @@ struct ListClass {
 ListClass classOfList(const Bins& bins, std::span<const uint> bricks, const LensBox& lens, float lensScale,
                       const MapLayout& map);
 
-/// How the lists of a chunk are made.
-struct ListClasses {
-    std::vector<uint> codes;  ///< of each list, see ListClass::code
-    std::vector<uint> missed; ///< two a list: see missedOf
-
-    explicit ListClasses(std::size_t lists) : codes(lists, 0), missed(2 * lists, ~0u) {}
-    void set(std::size_t list, const ListClass& listClass, std::uint64_t missedPixels) {
-        codes[list] = listClass.code();
-        missed[2 * list] = uint(missedPixels);
-        missed[2 * list + 1] = uint(missedPixels >> 32);
-    }
-    /// The pixels of a list's tile that the map does not serve, bit tileBit each.
-    std::uint64_t missedOf(std::size_t list) const {
-        return missed[2 * list] | std::uint64_t(missed[2 * list + 1]) << 32;
-    }
-};
-
-/// Of a position in a region whose tiles begin at its corner.
-inline int tileBit(ivec2 position) {
-    return position.y % kTileSize * kTileSize + position.x % kTileSize;
-}
-/// The bits of the pixels of a tile of which `size` lie in the region; more than kTileSize count as that.
-std::uint64_t tilePixels(ivec2 size);
-
 /// Where the outputs of a pattern lie on the lens when they are taken from the map: in their cells, as even
 /// as can be.
 std::vector<vec4> lensPoints(const OutputPattern& pattern);
@@ -69,10 +38,5 @@ float spreadPerPx(const OutputPattern& pattern);
 
 /// What is seen at raster position x through lens position uv; nothing where no surface is met.
 std::optional<vec3> lookThrough(const LayerMap& map, std::span<const Cluster> clusters, vec2 x, vec2 uv);
-
-/// Adds to `share`, of the pixels of `frame` that a band finishes, what a chunk of its lists brings: 1 for a
-/// list that the map serves there, 1/2 if it is inFocus, over `groups` in all.
-void addMapShare(std::vector<float>& share, const Rect& frame, const Band& band, const ListClasses& classes,
-                 std::size_t groups);
 
 } // namespace slant

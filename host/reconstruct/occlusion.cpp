@@ -67,12 +67,12 @@ OcclusionLayout chooseOcclusion(const GridLayout& grid, const SampleDensity& den
     return layout;
 }
 
-std::vector<uint> countStopped(const LightField& field, const GridLayout& grid,
+std::vector<uint> countStopped(std::span<const LightFieldSample> samples, const GridLayout& grid,
                                const OcclusionLayout& layout) {
     std::vector<uint> stopped(stoppedBlocks(layout));
     // Each thread has planes of its own, so that counts need no atomics.
     parallelFor(0, std::size_t(layout.planeCount), 16, [&](std::size_t first, std::size_t last) {
-        for (const LightFieldSample& s : field.samples) {
+        for (const LightFieldSample& s : samples) {
             if (!isFollowed(layout, vec2(s.x, s.y)) || !(glm::abs(s.slope) < kFarPx))
                 continue; // disabled ones are far
             int plane = std::max(int(first), firstPlaneBehind(layout, s.slope, grid.surfaceGap));

@@ -21,7 +21,7 @@ inline std::size_t stoppedBlocks(const OcclusionLayout& layout) {
 }
 
 /// Rays that end before each block: [plane][row][column]. As bin_occlude.comp.
-std::vector<uint> countStopped(const LightField& field, const GridLayout& grid,
+std::vector<uint> countStopped(std::span<const LightFieldSample> samples, const GridLayout& grid,
                                const OcclusionLayout& layout);
 
 /// 1 / (part of the lens from which a sample at pinhole position p is visible), at most 1 / kMinVisible;

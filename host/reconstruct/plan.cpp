@@ -35,10 +35,12 @@ Rect outputRegion(const Rect& frame, const FilterTable& filter) {
 }
 
 void checkBudget(const Rect& frame, int mostSamplesPerPixel, const ReconstructOptions& options) {
-    const int planes =
-        options.method == Method::box ? mostSamplesPerPixel : std::min(kFilmBlock, options.outputsPerPixel);
+    const int planes = traitsOf(options.method).makesOutputs() ? std::min(kFilmBlock, options.outputsPerPixel)
+                                                               : mostSamplesPerPixel;
     planBands(frame, makeFilterTable(options.filter), planes, maxDenseSamples(options));
 }
+
+namespace {
 
 OutputLayout layoutOf(const Band& band, const OutputPattern& pattern, std::uint64_t seed) {
     OutputLayout layout;
@@ -49,6 +51,8 @@ OutputLayout layoutOf(const Band& band, const OutputPattern& pattern, std::uint6
     layout.seed = uint(seed ^ seed >> 32);
     return layout;
 }
+
+} // namespace
 
 Plan planOutputs(const Rect& frame, const FilterTable& filter, const OutputPattern& pattern,
                  std::uint64_t maxSamples, int maxRows) {
@@ -62,6 +66,18 @@ Plan planOutputs(const Rect& frame, const FilterTable& filter, const OutputPatte
         std::clamp<std::uint64_t>(blocksThatFit, 1, std::uint64_t(pattern.outputsPerPixel() / block));
     plan.groupsPerChunk = int(blocks) * block / pattern.groupSize();
     return plan;
+}
+
+std::vector<Chunk> chunksOf(const Plan& plan, const Band& band, const OutputPattern& pattern,
+                            std::uint64_t seed) {
+    std::vector<Chunk> chunks;
+    const int groups = int(pattern.groups.size());
+    for (int group = 0; group < groups; group += plan.groupsPerChunk) {
+        const int count = std::min(plan.groupsPerChunk, groups - group);
+        chunks.push_back({band, layoutOf(band, pattern, seed), group, count, group << pattern.groupBits,
+                          count << pattern.groupBits});
+    }
+    return chunks;
 }
 
 } // namespace slant

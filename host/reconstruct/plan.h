@@ -2,7 +2,7 @@
 // The picture does not depend on the plan.
 #pragma once
 #include "reconstruct/filter_table.h"
-#include "reconstruct/method.h"
+#include "reconstruct/options.h"
 #include "reconstruct/output_pattern.h"
 
 #include <cstdint>
@@ -28,16 +28,29 @@ Rect outputRegion(const Rect& frame, const FilterTable& filter);
 /// for a row of tiles; it needs no samples to know.
 void checkBudget(const Rect& frame, int mostSamplesPerPixel, const ReconstructOptions& options);
 
-OutputLayout layoutOf(const Band& band, const OutputPattern& pattern, std::uint64_t seed);
-
 struct Plan {
     std::vector<Band> bands;
     int groupsPerChunk = 1;    ///< whole film blocks
     std::uint64_t outputs = 0; ///< in all
 };
 
+/// Some lens groups over one band.
+struct Chunk {
+    Band band;
+    OutputLayout layout;
+    int firstGroup = 0, groupCount = 0;
+    int firstOutput = 0;
+    int planes = 0; ///< outputs per pixel
+
+    std::uint64_t outputs() const { return band.region.area() * std::uint64_t(planes); }
+};
+
 /// Bands of up to `maxRows` rows and chunks of at most `maxSamples` dense samples.
 Plan planOutputs(const Rect& frame, const FilterTable& filter, const OutputPattern& pattern,
                  std::uint64_t maxSamples, int maxRows = std::numeric_limits<int>::max());
+
+/// The chunks of a band, in order.
+std::vector<Chunk> chunksOf(const Plan& plan, const Band& band, const OutputPattern& pattern,
+                            std::uint64_t seed);
 
 } // namespace slant

@@ -24,7 +24,7 @@ Reconstructed reconstructNearest(const SearchContext& context, const Output& out
         another = weightSum > 0 && candidate.slope > slopeMax + grid.surfaceGap;
         if (another) return false;
         const float weight = candidate.weight * (1 - glm::sqrt(candidate.distance2) * invRadius);
-        sum += weight * vec3(candidate.radiance);
+        sum += weight * vec3(candidate.value);
         weightSum += weight;
         slopeMax = glm::max(slopeMax, candidate.slope);
         addPoint(hull, candidate.offset);

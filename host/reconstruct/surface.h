@@ -18,7 +18,7 @@ struct Surface {
 };
 
 inline void addSample(Surface& surface, const Candidate& candidate, float baseRadius) {
-    const vec3 rgb(candidate.radiance);
+    const vec3 rgb(candidate.value);
     const float distance = glm::sqrt(candidate.distance2) / baseRadius;
     const float inner = candidate.weight * glm::max(1 - distance, 0.f),
                 outer = candidate.weight * (2 - distance);

@@ -86,22 +86,24 @@ float expOfMinus(float x) {
     return series * std::bit_cast<float>(uint(127 - int(n)) << 23);
 }
 
-WindowSamples windowSamples(const LightField& field) {
-    const SampleDensity density = densityOf(field);
-    WindowSamples samples{std::vector<vec4>(field.samples.size()), std::vector<vec4>(field.samples.size()),
+WindowSamples windowSamples(const SceneSideSamples& source, ValuePlane plane) {
+    const SampleDensity density = densityOf(source);
+    const LightField& field = source.field();
+    const std::size_t count = source.samples().size();
+    WindowSamples samples{std::vector<vec4>(count), std::vector<vec4>(count),
                           std::vector<uint>(field.bounds.area() + 1)};
     for (std::size_t pixel = 0; pixel < samples.pixelStart.size(); ++pixel)
         samples.pixelStart[pixel] = uint(field.firstSample(pixel));
-    parallelFor(0, field.samples.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
+    parallelFor(0, count, 1 << 14, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
-            const LightFieldSample& s = field.samples[i];
+            const LightFieldSample& s = source.samples()[i];
             const vec2 p = pinholePosition(s);
             const bool seen = std::isfinite(p.x) && std::isfinite(p.y); // so that p + slope u is no NaN
             const float around = seen ? samplesAround(density, p, s.slope) : 1.f;
             const float radiusPx = 2 * spacingPx(around);
             samples.positions[i] =
                 seen ? vec4(p, s.slope, radiusPx * radiusPx) : vec4(kNowherePx, kNowherePx, 0, 0);
-            samples.radiances[i] = vec4(s.r, s.g, s.b, s.alpha);
+            samples.values[i] = vec4(source.value(plane, i), s.alpha);
         }
     });
     return samples;
@@ -120,7 +122,7 @@ WindowSearch windowSearch(const LightField& field, const WindowOptions& options)
 
 std::uint64_t windowSteps(const LightField& field, const WindowSearch& search) {
     const auto width = std::uint64_t(2 * search.rangePx + 1);
-    return width + width * width * sampleCounts(field).most;
+    return width + width * width * sampleCounts(field).max;
 }
 
 WindowResult lookThroughWindow(const WindowSamples& samples, const WindowSearch& search, ivec2 pixel,
@@ -128,7 +130,7 @@ WindowResult lookThroughWindow(const WindowSamples& samples, const WindowSearch&
     const std::size_t nearest = collect(samples, search, pixel, output, scratch);
     if (scratch.empty()) {
         if (search.fill == 0 || nearest == samples.positions.size()) return {};
-        return {WindowOutcome::filled, vec3(samples.radiances[nearest])};
+        return {WindowOutcome::filled, vec3(samples.values[nearest])};
     }
     WindowSurface front, surface;
     const WindowCandidate* previous = nullptr;
@@ -140,7 +142,7 @@ WindowResult lookThroughWindow(const WindowSamples& samples, const WindowSearch&
             if (front.count == 0) front = surface;
             surface = WindowSurface{};
         }
-        addSample(surface, candidate, vec3(samples.radiances[candidate.record]), search.alpha);
+        addSample(surface, candidate, vec3(samples.values[candidate.record]), search.alpha);
         previous = &candidate;
     }
     taken = taken || surrounds(surface.hull);

@@ -5,8 +5,8 @@
 // triangles. Samples that blur moves further than the window are not found: the larger the blur, the more
 // outputs find nothing at all.
 #pragma once
-#include "lightfield/lightfield.h"
-#include "reconstruct/method.h"
+#include "lightfield/scene_side.h"
+#include "reconstruct/options.h"
 #include "reconstruct/output_pattern.h"
 #include "shared/window.h"
 
@@ -18,11 +18,11 @@ namespace slant {
 struct WindowSamples {
     std::vector<vec4> positions;  ///< pinhole position x, y, slope, square of its radius; far off where the
                                   ///< sample is disabled
-    std::vector<vec4> radiances;  ///< r, g, b, alpha
+    std::vector<vec4> values;     ///< r, g, b, alpha
     std::vector<uint> pixelStart; ///< first sample of each pixel of the bounds, and of one more
 };
 
-WindowSamples windowSamples(const LightField& field);
+WindowSamples windowSamples(const SceneSideSamples& samples, ValuePlane plane);
 
 WindowSearch windowSearch(const LightField& field, const WindowOptions& options);
 

@@ -1,7 +1,7 @@
 #include "report/page.h"
 
 #include "base/read_file.h"
-#include "reconstruct/method.h"
+#include "reconstruct/options.h"
 #include "report/chart.h"
 
 #include <algorithm>

@@ -3,18 +3,17 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/parallel.h"
-#include "compute/backend.h"
 #include "image/flip.h"
 #include "image/heat_map.h"
 #include "image/metrics.h"
 #include "image/png.h"
-#include "report/brute_force.h"
+#include "render/brute_force.h"
+#include "render/render.h"
 #include "report/machine.h"
 #include "report/timing.h"
 #include "report/truth.h"
 #include "report/work_monitor.h"
 #include "scene/read_scene.h"
-#include "trace/sample_pass.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -84,7 +83,7 @@ public:
     }
 
 private:
-    int outputsOf(Method method, int outputs) const { return usesOutputs(method) ? outputs : 0; }
+    int outputsOf(Method method, int outputs) const { return traitsOf(method).makesOutputs() ? outputs : 0; }
 
     /// All settings of the methods from `spp` samples, device by device.
     template <typename Visit>
@@ -93,7 +92,7 @@ private:
             for (const Method method : options_.methods)
                 for (const int outputs : options_.outputs) {
                     visit(*backend, method, outputs);
-                    if (!usesOutputs(method)) break;
+                    if (!traitsOf(method).makesOutputs()) break;
                 }
     }
 
@@ -150,9 +149,8 @@ private:
             if (field.samples.empty())
                 trace = timeRuns(options_.repeat, [&] {
                     field = {};
-                    field = traceLightField(tracer, scene, {.samplesPerPixel = spp, .seed = options_.seed},
-                                            work_);
-                    sanitize(field);
+                    field = traceField(tracer, scene, {.samplesPerPixel = spp, .seed = options_.seed}, work_)
+                                .field;
                 });
             beginShare(scene, std::uint64_t(point.outputs), options_.repeat + 1);
             ReconstructOptions reconstruction;

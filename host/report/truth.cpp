@@ -4,7 +4,7 @@
 #include "base/hash.h"
 #include "base/read_file.h"
 #include "image/exr.h"
-#include "report/brute_force.h"
+#include "render/brute_force.h"
 
 #include <cstdlib>
 #include <filesystem>
@@ -48,10 +48,14 @@ std::string contentKey(const Scene& scene, const Tracer& tracer) {
     SilentMonitor silent;
     for (int y = film.crop.y0; y < film.crop.y1; y += kProbeRows) {
         const Rect row{film.crop.x0, y, film.crop.x1, y + 1};
-        std::vector<LightFieldSample> samples(row.area());
-        tracer.trace(row, 0, 1, 1, 0, samples, {}, silent);
-        for (const LightFieldSample& s : samples)
-            for (const float value : {s.x, s.y, s.u, s.v, s.w, s.slope, s.r, s.g, s.b}) hash.add(value);
+        SampleSet set;
+        set.resize(row.area(), false);
+        tracer.trace(row, 0, 1, 1, 0, spansOf(set), silent);
+        for (std::size_t i = 0; i < set.samples.size(); ++i) {
+            const LightFieldSample& s = set.samples[i];
+            const glm::vec3& rgb = set.radiance[i];
+            for (const float value : {s.x, s.y, s.u, s.v, s.w, s.slope, rgb.r, rgb.g, rgb.b}) hash.add(value);
+        }
     }
     return hash.hex();
 }

@@ -70,7 +70,7 @@ void BlockTracer::shade(int sample) {
         samplers_[lane] = job_.pattern.shading(places_[lane], sample);
         paths_[lane] = startPath(rays_[lane]);
         goesOn_[lane] = scatter(job_.shading, hits_[lane], job_.scene.maxDepth, samplers_[lane], paths_[lane],
-                                shadows_[lane], job_.auxiliary.empty() ? nullptr : &auxiliary_[lane]);
+                                shadows_[lane], job_.out.albedo.empty() ? nullptr : &guides_[lane]);
         shadowRays[lane] = shadows_[lane].ray;
         if (!shadows_[lane].needed()) shadowRays[lane].tMax = 0;
     }
@@ -99,16 +99,14 @@ void BlockTracer::store(int i, int sample) {
     s.w = hit.t;
     s.slope = job_.camera.slopeModel()(hit.t);
     s.alpha = hit.hit() ? 1.f : 0.f;
-    glm::vec3 radiance = exposed(job_.scene.film, weights_[lane] * paths_[lane].radiance);
-    s.r = radiance.r;
-    s.g = radiance.g;
-    s.b = radiance.b;
-    s.areaExcess = 0;
     std::size_t pixel = std::size_t(y(i) - job_.pixels.y0) * std::size_t(job_.pixels.width()) +
                         std::size_t(x(i) - job_.pixels.x0);
     std::size_t index = pixel * std::size_t(job_.count) + std::size_t(sample - job_.firstSample);
-    job_.out[index] = s;
-    if (!job_.auxiliary.empty()) job_.auxiliary[index] = auxiliary_[lane];
+    job_.out.samples[index] = s;
+    job_.out.radiance[index] = exposed(job_.scene.film, weights_[lane] * paths_[lane].radiance);
+    if (job_.out.albedo.empty()) return;
+    job_.out.albedo[index] = guides_[lane].albedo;
+    job_.out.normal[index] = guides_[lane].normal;
 }
 
 } // namespace slant

@@ -23,8 +23,7 @@ struct TraceJob {
     const Pattern& pattern;
     Rect pixels;
     int firstSample, count;
-    std::span<LightFieldSample> out;
-    std::span<AuxiliarySample> auxiliary;
+    SampleSpans out;
 };
 
 class BlockTracer {
@@ -50,7 +49,7 @@ private:
     std::array<PatternPixel, kLanes> places_;
     std::array<float, kLanes> lastX_, lastY_; ///< largest raster positions inside the pixels
     std::array<LightFieldSample, kLanes> samples_;
-    std::array<AuxiliarySample, kLanes> auxiliary_;
+    std::array<SurfaceGuides, kLanes> guides_;
     std::array<float, kLanes> weights_; ///< of the radiance
     std::array<Ray, kLanes> rays_;
     std::array<SurfaceHit, kLanes> hits_;

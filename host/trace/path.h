@@ -73,19 +73,25 @@ bool bsdfRayNeeded(const Lights& lights, const Bsdf& bsdf);
 bool continuePath(const Lights& lights, const Bsdf& bsdf, const SurfaceHit& hit, int maxDepth, float lobe,
                   glm::vec2 u, PathState& state);
 
+/// Guides for denoisers and compositors.
+struct SurfaceGuides {
+    glm::vec3 albedo{0}; ///< in [0, 1]
+    glm::vec3 normal{0}; ///< world space, unit length, towards the camera; 0 where nothing was hit
+};
+
 /// One vertex: state.ray met `hit` (or nothing: !hit.hit()). Fills `shadow`; true if state.ray is to be
-/// traced on. `auxiliary`, if not null, receives what denoisers want of this vertex. Sampler: float next1D(),
+/// traced on. `guides`, if not null, receives what denoisers want of this vertex. Sampler: float next1D(),
 /// glm::vec2 next2D(), uniform in [0, 1).
 template <typename Sampler>
 bool scatter(const Shading& shading, const SurfaceHit& hit, int maxDepth, Sampler& sampler, PathState& state,
-             ShadowRay& shadow, AuxiliarySample* auxiliary = nullptr) {
+             ShadowRay& shadow, SurfaceGuides* guides = nullptr) {
     shadow.contribution = glm::vec3(0);
-    if (auxiliary) *auxiliary = {glm::vec3(0), glm::vec3(0)};
+    if (guides) *guides = {};
     glm::vec3 wo = -glm::normalize(state.ray.direction);
     addEmission(shading.lights, hit, wo, state);
-    if (!hit.hit() || (state.depth == maxDepth && !auxiliary)) return false;
+    if (!hit.hit() || (state.depth == maxDepth && !guides)) return false;
     Bsdf bsdf = shading.materials.bsdf(hit, wo);
-    if (auxiliary) *auxiliary = {bsdf.albedo(), bsdf.normal()};
+    if (guides) *guides = {bsdf.albedo(), bsdf.normal()};
     if (state.depth++ == maxDepth) return false;
 
     if (bsdf.scatters() && shading.lights.canSample()) {

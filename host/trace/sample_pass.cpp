@@ -16,7 +16,8 @@ namespace {
 constexpr double kMebibyte = 1 << 20;
 
 std::uint64_t fieldBytes(Rect bounds, const SampleOptions& options) {
-    std::uint64_t perSample = sizeof(LightFieldSample) + (options.auxiliary ? sizeof(AuxiliarySample) : 0);
+    const std::uint64_t planes = options.guides ? 3 : 1;
+    const std::uint64_t perSample = sizeof(LightFieldSample) + planes * sizeof(glm::vec3);
     return std::uint64_t(bounds.area()) * std::uint64_t(options.samplesPerPixel) * perSample;
 }
 
@@ -32,32 +33,32 @@ void requireBudget(std::uint64_t bytes, Rect bounds, const SampleOptions& option
 }
 
 /// Samples of one rectangle.
-struct Samples {
-    std::vector<LightFieldSample> light;
-    std::vector<AuxiliarySample> auxiliary;
-
-    Samples(Rect pixels, const SampleOptions& options) {
-        std::size_t count = pixels.area() * std::size_t(options.samplesPerPixel);
-        try {
-            light.resize(count);
-            auxiliary.resize(options.auxiliary ? count : 0);
-        } catch (const std::exception&) { // bad_alloc or length_error
-            throw Error(ErrorCode::resources, fmt::format("no memory for {} samples ({:.0f} MiB)", count,
-                                                          double(fieldBytes(pixels, options)) / kMebibyte));
-        }
+SampleSet samplesOf(Rect pixels, const SampleOptions& options) {
+    const std::size_t count = pixels.area() * std::size_t(options.samplesPerPixel);
+    SampleSet set;
+    try {
+        set.resize(count, options.guides);
+    } catch (const std::exception&) { // bad_alloc or length_error
+        throw Error(ErrorCode::resources, fmt::format("no memory for {} samples ({:.0f} MiB)", count,
+                                                      double(fieldBytes(pixels, options)) / kMebibyte));
     }
-};
+    return set;
+}
 
-void copyRows(const Samples& from, Rect pixels, Samples& to, Rect bounds, int samplesPerPixel) {
-    std::size_t row = std::size_t(pixels.width()) * std::size_t(samplesPerPixel);
+void copyRows(const SampleSet& from, Rect pixels, SampleSet& to, Rect bounds, int samplesPerPixel) {
+    const std::size_t row = std::size_t(pixels.width()) * std::size_t(samplesPerPixel);
     for (int y = pixels.y0; y < pixels.y1; ++y) {
-        std::size_t source = std::size_t(y - pixels.y0) * row;
-        std::size_t target =
+        const std::size_t source = std::size_t(y - pixels.y0) * row;
+        const std::size_t target =
             (std::size_t(y - bounds.y0) * std::size_t(bounds.width()) + std::size_t(pixels.x0 - bounds.x0)) *
             std::size_t(samplesPerPixel);
-        std::copy_n(from.light.data() + source, row, to.light.data() + target);
-        if (!to.auxiliary.empty())
-            std::copy_n(from.auxiliary.data() + source, row, to.auxiliary.data() + target);
+        const auto copy = [&](const auto& plane, auto& into) {
+            if (!plane.empty()) std::copy_n(plane.data() + source, row, into.data() + target);
+        };
+        copy(from.samples, to.samples);
+        copy(from.radiance, to.radiance);
+        copy(from.albedo, to.albedo);
+        copy(from.normal, to.normal);
     }
 }
 
@@ -136,44 +137,38 @@ LightField traceLightField(const Tracer& tracer, const Scene& scene, const Sampl
     const int spp = options.samplesPerPixel;
     const Rect frame = scene.film.crop;
     const LensMap lensMap = tracer.camera().lensMap();
-    auto trace = [&](Rect pixels, Samples& into) {
-        tracer.trace(pixels, 0, spp, spp, options.seed, into.light, into.auxiliary, monitor);
+    auto trace = [&](Rect pixels, SampleSet& into) {
+        tracer.trace(pixels, 0, spp, spp, options.seed, spansOf(into), monitor);
     };
     requireBudget(fieldBytes(frame, options), frame, options);
-    Samples inFrame(frame, options);
+    SampleSet inFrame = samplesOf(frame, options);
     monitor.beginStage("trace", std::uint64_t(frame.area()) * std::uint64_t(spp), "samples");
     trace(frame, inFrame);
     monitor.endStage();
 
     int limit = std::max(scene.film.xResolution, scene.film.yResolution) / 2, wanted = 0;
-    const Rect bounds = boundsWithOverscan(frame, inFrame.light, spp, limit, wanted, lensMap);
+    const Rect bounds = boundsWithOverscan(frame, inFrame.samples, spp, limit, wanted, lensMap);
     if (wanted > limit)
         monitor.warn(
             fmt::format("blur reaches {} pixels beyond the frame; the overscan is limited to {} pixels, so "
                         "borders may lack what enters from farther out",
                         wanted, limit));
     requireBudget(fieldBytes(bounds, options) + fieldBytes(frame, options), bounds, options);
-    Samples all(bounds, options);
-    copyRows(inFrame, frame, all, bounds, spp);
+    LightField field{samplesOf(bounds, options), bounds,  frame, spp, tracer.camera().slopeModel(),
+                     tracer.camera().aperture(), lensMap, {}};
+    copyRows(inFrame, frame, field, bounds, spp);
     monitor.beginStage("trace overscan", std::uint64_t(bounds.area() - frame.area()) * std::uint64_t(spp),
                        "samples");
     const std::array<Rect, 4> ring{
         Rect{bounds.x0, bounds.y0, bounds.x1, frame.y0}, Rect{bounds.x0, frame.y0, frame.x0, frame.y1},
         Rect{frame.x1, frame.y0, bounds.x1, frame.y1}, Rect{bounds.x0, frame.y1, bounds.x1, bounds.y1}};
     for (Rect part : ring) {
-        Samples samples(part, options);
+        SampleSet samples = samplesOf(part, options);
         trace(part, samples);
-        copyRows(samples, part, all, bounds, spp);
+        copyRows(samples, part, field, bounds, spp);
     }
     monitor.endStage();
-    return {bounds,
-            frame,
-            spp,
-            tracer.camera().slopeModel(),
-            std::move(all.light),
-            std::move(all.auxiliary),
-            tracer.camera().aperture(),
-            lensMap};
+    return field;
 }
 
 } // namespace slant

@@ -9,7 +9,7 @@ namespace slant {
 struct SampleOptions {
     int samplesPerPixel = 8;
     std::uint64_t seed = 0;
-    bool auxiliary = false;                 ///< record albedo and normal too
+    bool guides = false;                    ///< record albedo and normal too
     std::uint64_t memoryBytes = 4ull << 30; ///< budget of the light field
 };
 

@@ -46,15 +46,18 @@ std::pair<double, double> Tracer::depthRange() const {
 }
 
 void Tracer::trace(Rect pixels, int firstSample, int count, int samplesPerPixel, std::uint64_t seed,
-                   std::span<LightFieldSample> out, std::span<AuxiliarySample> auxiliary,
-                   Monitor& monitor) const {
+                   const SampleSpans& out, Monitor& monitor) const {
     Pattern pattern(samplesPerPixel, seed);
+    const std::size_t samples = pixels.area() * std::size_t(std::max(count, 0));
+    const auto fits = [&](std::span<const glm::vec3> plane, bool optional) {
+        return plane.size() == samples || (optional && plane.empty());
+    };
     if (firstSample < 0 || count < 0 || count > samplesPerPixel - firstSample ||
-        out.size() != pixels.area() * std::size_t(count) ||
-        (!auxiliary.empty() && auxiliary.size() != out.size()))
+        out.samples.size() != samples || !fits(out.radiance, false) || !fits(out.albedo, true) ||
+        out.normal.size() != out.albedo.size())
         throw Error(ErrorCode::usage, "the buffers do not fit the samples to trace");
-    if (out.empty()) return;
-    TraceJob job{scene_, camera_, geometry_, shading_, pattern, pixels, firstSample, count, out, auxiliary};
+    if (samples == 0) return;
+    TraceJob job{scene_, camera_, geometry_, shading_, pattern, pixels, firstSample, count, out};
     const int column0 = floorDivide(pixels.x0, kBlockSize),
               column1 = floorDivide(pixels.x1 - 1, kBlockSize) + 1;
     const int row0 = floorDivide(pixels.y0, kBlockSize), row1 = floorDivide(pixels.y1 - 1, kBlockSize) + 1;

@@ -5,7 +5,7 @@
 #include "lib/grid.glsl"
 
 layout(set = 0, binding = 0) uniform textureBuffer positions;   // p.x, p.y, slope, visibility weight
-layout(set = 0, binding = 1) uniform textureBuffer radiances;   // r, g, b, R over its own radius
+layout(set = 0, binding = 1) uniform textureBuffer values;   // r, g, b, R over its own radius
 layout(set = 0, binding = 2) uniform utextureBuffer cellStart;
 layout(set = 0, binding = 3) uniform utextureBuffer listStart;
 layout(set = 0, binding = 4) uniform utextureBuffer listCellBases; // of each listed brick
@@ -16,5 +16,5 @@ vec4 positionAt(uint record) { return texelFetch(positions, int(record)); }
 uint cellStartAt(uint cell) { return texelFetch(cellStart, int(cell)).x; }
 Brick listedBrick(uint entry) { return brickOf(texelFetch(listBricks, int(entry))); }
 uint listedCellBase(uint entry) { return texelFetch(listCellBases, int(entry)).x; }
-vec4 radianceAt(uint record) { return texelFetch(radiances, int(record)); }
+vec4 valueAt(uint record) { return texelFetch(values, int(record)); }
 #endif

@@ -11,7 +11,7 @@ struct Candidate {
     float distance2; // as if its own radius were that of the search
     float slope;
     float weight; // see lib/occlusion.glsl
-    vec4 radiance; // rgb; R over its own radius
+    vec4 value; // rgb; R over its own radius
 };
 
 /// Whether an output lies inside the convex hull of samples.

@@ -1,6 +1,6 @@
 // One output against the bins. As host/reconstruct/search.cpp, where it is explained.
 //
-// Needs, declared before the include: positionAt(uint), radianceAt(uint) and cellStartAt(uint), which read the
+// Needs, declared before the include: positionAt(uint), valueAt(uint) and cellStartAt(uint), which read the
 // bins;
 // listedBrick(uint) and listedCellBase(uint), which read the lists; a struct Sweep with a member `bool running`;
 // visit(Candidate, inout Sweep), called for each candidate until it clears `running`; and hides(Sweep, Brick),
@@ -40,11 +40,11 @@ bool forEachCandidate(GridLayout grid, Output o, float radius, float maxRadiusRa
                 if (kCompoundLens) offset = onFilm(o, offset);
                 const float distance2 = offset.x * offset.x + offset.y * offset.y;
                 if (!(distance2 < ownRadius * ownRadius)) continue;
-                const vec4 radiance = radianceAt(record);
-                const float radiusRatio = min(radiance.w, maxRadiusRatio);
+                const vec4 value = valueAt(record);
+                const float radiusRatio = min(value.w, maxRadiusRatio);
                 const float scaled2 = distance2 * (radiusRatio * radiusRatio);
                 if (scaled2 < radius * radius)
-                    visit(Candidate(offset, scaled2, position.z, position.w, radiance), sweep);
+                    visit(Candidate(offset, scaled2, position.z, position.w, value), sweep);
             }
         }
     }

@@ -17,7 +17,7 @@ Surface noSurface() {
 }
 
 void addSample(inout Surface surface, Candidate candidate, float baseRadius) {
-    const vec3 rgb = candidate.radiance.rgb;
+    const vec3 rgb = candidate.value.rgb;
     const float distance_ = sqrt(candidate.distance2) / baseRadius;
     const float inner = candidate.weight * max(1.0 - distance_, 0.0), outer = candidate.weight * (2.0 - distance_);
     surface.count += 1;

@@ -133,7 +133,7 @@ struct RefocusPush {
     float slopeShift; // pixels per lens radius
 };
 
-/// bin_radiances.
+/// bin_values.
 struct CountPush {
     uint count;
 };
@@ -149,9 +149,10 @@ struct OutputPush {
     uint firstGroup; // lens groups of the chunk
     uint groupCount;
     uint brickTotal;
-    float radiusPx; // lists: margin around a tile; visibility: base radius
-    int groupBits;  // 2^groupBits outputs of a pixel share a list
-    int takenBits;  // 2^takenBits of them are made, the first of the group's order
+    float marginPx;     // of lists, around a tile
+    float baseRadiusPx; // of surfaces: their inner tent
+    int groupBits;      // 2^groupBits outputs of a pixel share a list
+    int takenBits;      // 2^takenBits of them are made, the first of the group's order
 };
 
 /// film_spread, film_gather: planes of dense samples into rows of the film.

@@ -94,9 +94,10 @@ void traceFrame(benchmark::State& state, const Scene& scene) {
     SilentMonitor monitor;
     Tracer tracer(scene, monitor);
     const int spp = int(state.range(0));
-    std::vector<LightFieldSample> samples(scene.film.crop.area() * std::size_t(spp));
-    for (auto _ : state) tracer.trace(scene.film.crop, 0, spp, spp, 1, samples, {}, monitor);
-    state.SetItemsProcessed(state.iterations() * std::int64_t(samples.size()));
+    SampleSet set;
+    set.resize(scene.film.crop.area() * std::size_t(spp), false);
+    for (auto _ : state) tracer.trace(scene.film.crop, 0, spp, spp, 1, spansOf(set), monitor);
+    state.SetItemsProcessed(state.iterations() * std::int64_t(set.samples.size()));
 }
 
 void traceSpheres(benchmark::State& state) {

@@ -3,7 +3,7 @@
 #include "reconstruct/cpu_reconstructor.h"
 #include "reconstruct/plan.h"
 #include "support/expect_error.h"
-#include "support/stages.h"
+#include "support/intermediates.h"
 #include "support/synthetic.h"
 #include "support/vulkan_fixture.h"
 
@@ -35,24 +35,26 @@ protected:
         return options;
     }
 
-    static Reconstruction compute(const LightField& field, const ReconstructOptions& options) {
+    static Reconstruction compute(const LightField& field, const ReconstructOptions& options,
+                                  const LensView& view = {}) {
         ComputeReconstructor reconstructor(device());
-        return test::run(reconstructor, field, options);
+        return test::run(reconstructor, field, options, view);
     }
 
     /// The compute run, after it was found equal to the CPU's and all finite.
-    static Reconstruction runBoth(const LightField& field, const ReconstructOptions& options) {
+    static Reconstruction runBoth(const LightField& field, const ReconstructOptions& options,
+                                  const LensView& view = {}) {
         CpuReconstructor cpu;
-        const Reconstruction expected = test::run(cpu, field, options);
-        Reconstruction got = compute(field, options);
-        expectEqual(expected.stages, got.stages);
+        const Reconstruction expected = test::run(cpu, field, options, view);
+        Reconstruction got = compute(field, options, view);
+        expectEqual(expected.intermediates, got.intermediates);
         EXPECT_EQ(expected.report.emptyPixels, got.report.emptyPixels);
-        EXPECT_EQ(expected.report.holes, got.report.holes);
+        EXPECT_EQ(expected.report.search.holes, got.report.search.holes);
         EXPECT_EQ(expected.report.outputs, got.report.outputs);
         EXPECT_EQ(expected.report.fromMap, got.report.fromMap);
         EXPECT_TRUE(expected.report.mapShare == got.report.mapShare);
-        EXPECT_EQ(expected.report.visibility, got.report.visibility);
-        EXPECT_EQ(expected.report.widened, got.report.widened);
+        EXPECT_EQ(expected.report.search.visibility, got.report.search.visibility);
+        EXPECT_EQ(expected.report.search.widened, got.report.search.widened);
         for (const float value : got.image.pixels) EXPECT_TRUE(std::isfinite(value));
         return got;
     }
@@ -65,7 +67,7 @@ TEST_F(ReconstructParity, everyStageAtOddSizes) {
                 const LightField field = makeField(frame, spp);
                 const Reconstruction once = runBoth(field, optionsOf(method));
                 EXPECT_EQ(once.report.emptyPixels, 0u);
-                expectEqual(once.stages, compute(field, optionsOf(method)).stages);
+                expectEqual(once.intermediates, compute(field, optionsOf(method)).intermediates);
             }
 }
 
@@ -75,7 +77,7 @@ TEST_F(ReconstructParity, pixelsThatDifferInTheirNumberOfSamples) {
         for (const Method method : kMethods) {
             const LightField field = synthetic::sample(synthetic::discsOverChecks(), frame, 15, counts.at, 7);
             const Reconstruction run = runBoth(field, optionsOf(method));
-            EXPECT_EQ(run.report.overflowed, 0u) << counts.name << ", " << nameOf(method);
+            EXPECT_EQ(run.report.search.overflowed, 0u) << counts.name << ", " << nameOf(method);
         }
 }
 
@@ -105,9 +107,8 @@ TEST_F(ReconstructParity, everyAperture) {
     const LightField field = makeField({0, 0, 31, 23}, 3);
     for (const float lensScale : {0.f, 0.37f, 1.5f})
         for (const Method method : {Method::window, Method::full, Method::automatic}) {
-            ReconstructOptions options = optionsOf(method);
-            options.lensScale = lensScale;
-            EXPECT_EQ(runBoth(field, options).report.emptyPixels, 0u);
+            const LensView view{.apertureScale = lensScale};
+            EXPECT_EQ(runBoth(field, optionsOf(method), view).report.emptyPixels, 0u);
         }
 }
 
@@ -119,10 +120,8 @@ TEST_F(ReconstructParity, everyShapeOfAperture) {
     for (const char* name : {"disc", "star", "polygon 7 12"}) shapes.push_back(*parseAperture(name, {}));
     for (const ApertureShape& shape : shapes)
         for (const Method method : {Method::window, Method::full, Method::automatic}) {
-            ReconstructOptions options = optionsOf(method, 32);
-            options.aperture = Aperture(shape);
-            options.lensScale = 0.9f;
-            EXPECT_EQ(runBoth(field, options).report.emptyPixels, 0u);
+            const LensView view{.apertureScale = 0.9f, .aperture = Aperture(shape)};
+            EXPECT_EQ(runBoth(field, optionsOf(method, 32), view).report.emptyPixels, 0u);
         }
 }
 
@@ -136,8 +135,9 @@ TEST_F(ReconstructParity, filmDoesNotDependOnMemory) {
                                                  {3'000'000u, method == Method::box ? 1 : 4}}) {
             options.memoryBytes = bytes;
             const Reconstruction tight = runBoth(field, options);
-            EXPECT_EQ(std::count(tight.stages.names.begin(), tight.stages.names.end(), "dense"), denseStages);
-            EXPECT_TRUE(plenty.stages.contents.back() == tight.stages.contents.back()) << bytes;
+            EXPECT_EQ(std::count(tight.intermediates.names.begin(), tight.intermediates.names.end(), "dense"),
+                      denseStages);
+            EXPECT_TRUE(plenty.intermediates.contents.back() == tight.intermediates.contents.back()) << bytes;
         }
     }
 }
@@ -151,8 +151,9 @@ TEST_F(ReconstructParity, layerMapDoesNotDependOnMemory) {
     for (const auto& [bytes, maps] : {std::pair(4'250'000u, 3), {4'750'000u, 2}}) {
         options.memoryBytes = bytes;
         const Reconstruction tight = runBoth(field, options);
-        EXPECT_EQ(std::count(tight.stages.names.begin(), tight.stages.names.end(), "layer_map"), maps);
-        EXPECT_TRUE(plenty.stages.contents.back() == tight.stages.contents.back()) << bytes;
+        EXPECT_EQ(std::count(tight.intermediates.names.begin(), tight.intermediates.names.end(), "layer_map"),
+                  maps);
+        EXPECT_TRUE(plenty.intermediates.contents.back() == tight.intermediates.contents.back()) << bytes;
     }
     options.memoryBytes = 1'000'000;
     test::expectError(ErrorCode::resources, "layer map it has to be", [&] { compute(field, options); });
@@ -187,8 +188,8 @@ TEST_F(ReconstructParity, outputsWithTooManyCandidatesAreDoneOnTheCpu) {
     EXPECT_EQ(sanitize(field).total(), 0u);
     ASSERT_GT(field.samples.size(), std::size_t(kMaxLoopIterations));
     const Reconstruction run = runBoth(field, optionsOf(Method::full));
-    EXPECT_GT(run.report.overflowed, 0u);
-    EXPECT_GT(run.report.holes, 0u);
+    EXPECT_GT(run.report.search.overflowed, 0u);
+    EXPECT_GT(run.report.search.holes, 0u);
     EXPECT_GT(run.report.emptyPixels, 0u);
 
     LightField crowded = makeField({0, 0, 24, 17}, 50);
@@ -208,13 +209,13 @@ TEST_F(ReconstructParity, sanitizedRubbishIsLeftOut) {
         LightFieldSample& s = field.samples[i];
         switch (kind++ % 14) {
         case 0:
-            s.r = kNaN;
+            field.radiance[i].r = kNaN;
             break;
         case 1:
-            s.g = kInfinity;
+            field.radiance[i].g = kInfinity;
             break;
         case 2:
-            s.b = -1;
+            field.radiance[i].b = -1;
             break;
         case 3:
             s.w = 0;

@@ -2,9 +2,8 @@
 // the CPU path, stage by stage, to the bit.
 #include "compute/compute_reconstructor.h"
 #include "lightfield/refocus.h"
-#include "reconstruct/auxiliary.h"
 #include "reconstruct/cpu_reconstructor.h"
-#include "support/stages.h"
+#include "support/intermediates.h"
 #include "support/synthetic.h"
 #include "support/vulkan_fixture.h"
 
@@ -13,28 +12,28 @@ namespace {
 
 class RefocusParity : public test::VulkanTest {
 protected:
-    static test::Reconstruction picture(PreparedField& prepared, float slopeShift) {
+    static test::Reconstruction picture(PreparedField& prepared, float slopeShift,
+                                        ValuePlane plane = ValuePlane::radiance) {
         test::Reconstruction run;
         SilentMonitor monitor;
-        run.image = prepared.picture(slopeShift, monitor, run.report, &run.stages);
+        run.image = prepared.picture({slopeShift}, plane, monitor, run.report, &run.intermediates);
         return run;
     }
 
     /// Pictures of three focuses, then of depths.
-    static void expectSamePictures(LightField field, const ReconstructOptions& options, bool overflows) {
+    static void expectSamePictures(const LightField& field, const ReconstructOptions& options,
+                                   bool overflows) {
         ComputeReconstructor onDevice(device());
         const auto device = onDevice.prepare(field, options),
                    cpu = CpuReconstructor().prepare(field, options);
         for (const float shift : {0.f, 4.5f, -13.25f, 4.5f}) {
             const test::Reconstruction got = picture(*device, shift);
-            test::expectEqual(picture(*cpu, shift).stages, got.stages);
-            EXPECT_EQ(got.report.overflowed > 0, overflows);
+            test::expectEqual(picture(*cpu, shift).intermediates, got.intermediates);
+            EXPECT_EQ(got.report.search.overflowed > 0, overflows);
         }
-        takeValues(field, auxiliarySets(false).back());
-        device->takeRadiances();
-        cpu->takeRadiances();
         for (const float shift : {4.5f, 0.f})
-            test::expectEqual(picture(*cpu, shift).stages, picture(*device, shift).stages);
+            test::expectEqual(picture(*cpu, shift, ValuePlane::depth).intermediates,
+                              picture(*device, shift, ValuePlane::depth).intermediates);
     }
 
     static ReconstructOptions optionsOf(Method method) {
@@ -63,21 +62,16 @@ TEST_F(RefocusParity, whatIsFinishedOnTheCpuIsAtThatFocusToo) {
     expectSamePictures(field, optionsOf(Method::full), true);
 }
 
-TEST_F(RefocusParity, radiancesOfMethodsWithoutBins) {
-    LightField field = synthetic::sample(synthetic::discsOverChecks(), {0, 0, 20, 16}, 8, 3, 7);
+TEST_F(RefocusParity, planesOfMethodsWithoutBins) {
+    const LightField field = synthetic::sample(synthetic::discsOverChecks(), {0, 0, 20, 16}, 8, 3, 7);
     for (const Method method : {Method::box, Method::window}) {
         ReconstructOptions options = optionsOf(method);
         options.window.rangePx = 2;
         ComputeReconstructor onDevice(device());
         const auto prepared = onDevice.prepare(field, options);
         picture(*prepared, 0);
-        LightField depths = field;
-        takeValues(depths, auxiliarySets(false).back());
-        std::swap(depths.samples, field.samples);
-        prepared->takeRadiances();
-        EXPECT_EQ(picture(*prepared, 0).image.pixels,
-                  picture(*CpuReconstructor().prepare(field, options), 0).image.pixels);
-        std::swap(depths.samples, field.samples);
+        EXPECT_EQ(picture(*prepared, 0, ValuePlane::depth).image.pixels,
+                  picture(*CpuReconstructor().prepare(field, options), 0, ValuePlane::depth).image.pixels);
     }
 }
 

@@ -3,7 +3,7 @@
 #include "compute/compute_reconstructor.h"
 #include "reconstruct/cpu_reconstructor.h"
 #include "shared/window.h"
-#include "support/stages.h"
+#include "support/intermediates.h"
 #include "support/synthetic.h"
 #include "support/vulkan_fixture.h"
 
@@ -21,12 +21,12 @@ protected:
         ComputeReconstructor compute(device());
         const test::Reconstruction expected = test::run(cpu, field, options);
         const test::Reconstruction got = test::run(compute, field, options);
-        test::expectEqual(expected.stages, got.stages);
+        test::expectEqual(expected.intermediates, got.intermediates);
         EXPECT_EQ(expected.report.outputs, got.report.outputs);
-        EXPECT_EQ(expected.report.visibility, got.report.visibility);
-        EXPECT_EQ(expected.report.widened, got.report.widened);
-        EXPECT_EQ(expected.report.holes, got.report.holes);
-        EXPECT_EQ(expected.report.overflowed, 0u);
+        EXPECT_EQ(expected.report.search.visibility, got.report.search.visibility);
+        EXPECT_EQ(expected.report.search.widened, got.report.search.widened);
+        EXPECT_EQ(expected.report.search.holes, got.report.search.holes);
+        EXPECT_EQ(expected.report.search.overflowed, 0u);
         return got.report;
     }
 
@@ -42,8 +42,8 @@ TEST_F(WindowParity, everyOption) {
                                         {.rangePx = 40, .alpha = 1e6f, .lensStep = 0.f},
                                         {.rangePx = 5, .alpha = 3, .lensStep = 2.f, .fill = true}}) {
         const ReconstructReport report = runBoth(makeField(2), window);
-        EXPECT_EQ(report.overflowed, 0u);
-        EXPECT_EQ(report.widened > 0, window.fill);
+        EXPECT_EQ(report.search.overflowed, 0u);
+        EXPECT_EQ(report.search.widened > 0, window.fill);
     }
 }
 
@@ -55,15 +55,15 @@ TEST_F(WindowParity, denseSpotsAreDoneOnTheCpu) {
         if (s.x < 12) s.x = 12 + 0.2f * random.uniform(), s.slope = random.uniform();
     }
     const ReconstructReport report = runBoth(field, {.rangePx = 20});
-    EXPECT_GT(report.overflowed, 0u);
-    EXPECT_LT(report.overflowed, report.outputs / 2);
+    EXPECT_GT(report.search.overflowed, 0u);
+    EXPECT_LT(report.search.overflowed, report.outputs / 2);
 }
 
 TEST_F(WindowParity, windowsWithTooManySamplesAreDoneOnTheCpu) {
     const LightField field = synthetic::sample(synthetic::discsOverChecks(), {3, -2, 14, 7}, 15, 9, 7);
-    EXPECT_EQ(runBoth(field, {.rangePx = 40}).overflowed, 0u);
+    EXPECT_EQ(runBoth(field, {.rangePx = 40}).search.overflowed, 0u);
     const ReconstructReport report = runBoth(field, {.rangePx = 41});
-    EXPECT_EQ(report.overflowed, report.outputs);
+    EXPECT_EQ(report.search.overflowed, report.outputs);
 }
 
 TEST_F(WindowParity, sortingAsManyAsFitStaysBelowTheLoopLimit) {
@@ -77,7 +77,7 @@ TEST_F(WindowParity, sortingAsManyAsFitStaysBelowTheLoopLimit) {
         s.y = 9 + (s.y - 9) / 2.1f;
     }
     const ReconstructReport report = runBoth(field, {.rangePx = 40, .alpha = 1});
-    EXPECT_LT(report.overflowed, report.outputs / 4);
+    EXPECT_LT(report.search.overflowed, report.outputs / 4);
 }
 
 } // namespace

@@ -1,9 +1,9 @@
 // Auxiliary channels: what they are by the weights of the colours, and the same by every way to a picture.
 #include "image/exr.h"
-#include "reconstruct/auxiliary.h"
 #include "reconstruct/cpu_reconstructor.h"
+#include "render/auxiliary.h"
+#include "support/intermediates.h"
 #include "support/run_program.h"
-#include "support/stages.h"
 #include "support/synthetic.h"
 
 #include <gmock/gmock.h>
@@ -115,16 +115,14 @@ TEST_F(Auxiliary, depthIsThatOfTheRaysThatHit) {
     const auto coverage = [&](int spp, Method method) {
         LightField field = synthetic::sample(disc, frame, 12, spp, 3);
         for (LightFieldSample& s : field.samples) s.w = s.w == 1 ? 5 : std::numeric_limits<float>::infinity();
-        field.samples[7].r = std::numeric_limits<float>::quiet_NaN(); // is overwritten
+        field.radiance[7].r = std::numeric_limits<float>::quiet_NaN(); // is not looked at
         ReconstructOptions options;
         options.method = method;
         options.outputsPerPixel = 64;
         CpuReconstructor cpu;
         Image image(frame, {"Y"});
-        for (const AuxiliarySet& set : auxiliarySets(false)) {
-            takeValues(field, set);
-            addChannels(image, set, test::run(cpu, field, options).image);
-        }
+        for (const AuxiliarySet& set : auxiliarySets(false))
+            addChannels(image, set, test::run(cpu, field, options, {}, set.plane).image);
         EXPECT_EQ(image.channels, (Channels{"Y", "A", "Z"}));
         return image;
     };
@@ -144,16 +142,15 @@ TEST_F(Auxiliary, depthIsThatOfTheRaysThatHit) {
 
 TEST_F(Auxiliary, valuesThatAreNotFiniteAreNothing) {
     LightField field = synthetic::sample(synthetic::discsOverChecks(), {0, 0, 2, 2}, 0, 1, 1);
-    field.auxiliary.assign(4, {glm::vec3(0.5f), glm::vec3(0, 0, -1)});
-    field.auxiliary[2].normal.y = std::numeric_limits<float>::infinity();
-    takeValues(field, auxiliarySets(true).back());
-    EXPECT_EQ(field.samples[1].b, 0);
-    EXPECT_EQ(field.samples[2].b, 0.5f) << "as without a normal";
-    field.auxiliary[1].albedo.y = std::numeric_limits<float>::quiet_NaN();
-    field.auxiliary[2].albedo.y = -3;
-    takeValues(field, auxiliarySets(true)[2]);
-    for (const std::size_t i : {1, 2}) EXPECT_EQ(field.samples[i].g, 0);
-    EXPECT_EQ(field.samples[3].g, 0.5f);
+    field.albedo.assign(4, glm::vec3(0.5f));
+    field.normal.assign(4, glm::vec3(0, 0, -1));
+    field.normal[2].y = std::numeric_limits<float>::infinity();
+    EXPECT_EQ(valueOf(field, ValuePlane::normal, 1).b, 0);
+    EXPECT_EQ(valueOf(field, ValuePlane::normal, 2).b, 0.5f) << "as without a normal";
+    field.albedo[1].y = std::numeric_limits<float>::quiet_NaN();
+    field.albedo[2].y = -3;
+    for (const std::size_t i : {1, 2}) EXPECT_EQ(valueOf(field, ValuePlane::albedo, i).g, 0);
+    EXPECT_EQ(valueOf(field, ValuePlane::albedo, 3).g, 0.5f);
 }
 
 } // namespace

@@ -1,7 +1,7 @@
 // Blur has the shape of the aperture, whichever method makes it.
 #include "image/metrics.h"
 #include "reconstruct/cpu_reconstructor.h"
-#include "support/stages.h"
+#include "support/intermediates.h"
 #include "support/synthetic.h"
 
 namespace slant {
@@ -24,9 +24,8 @@ Image reconstruct(const LightField& field, Method method,
     ReconstructOptions options;
     options.method = method;
     options.outputsPerPixel = 128;
-    options.aperture = aperture;
     CpuReconstructor cpu;
-    return test::run(cpu, field, options).image;
+    return test::run(cpu, field, options, {.aperture = aperture}).image;
 }
 
 Aperture shapeOf(const char* name) {

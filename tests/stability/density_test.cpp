@@ -2,7 +2,7 @@
 // field that has as many samples in all pixels.
 #include "reconstruct/cpu_reconstructor.h"
 #include "reconstruct/grid.h"
-#include "support/stages.h"
+#include "support/intermediates.h"
 #include "support/synthetic.h"
 
 #include <numeric>
@@ -43,7 +43,8 @@ double mse(const Image& image, int x0, int x1) {
 
 TEST(Density, isTheMeanOverTheBlur) {
     const auto counts = [](int x, int) { return x < 64 ? 2 : 16; };
-    const SampleDensity density = densityOf(synthetic::sample(kLayers, kFrame, kOverscan, counts, 1));
+    const LightField field = synthetic::sample(kLayers, kFrame, kOverscan, counts, 1);
+    const SampleDensity density = densityOf(SceneSideSamples(field));
     EXPECT_EQ(density.least, 2);
     EXPECT_EQ(samplesAround(density, {20, 20}, 0), 2);
     EXPECT_EQ(samplesAround(density, {20, 20}, -12), 2);
@@ -57,8 +58,8 @@ TEST(Density, isTheMeanOverTheBlur) {
 
 TEST(Density, equalCountsAreNoDifference) {
     LightField field = synthetic::sample(kLayers, {0, 0, 30, 20}, kOverscan, 3, 1);
-    EXPECT_EQ(densityOf(field).least, 3);
-    EXPECT_EQ(radiusRatioAt(densityOf(field), {3, 4}, 5, 0.7f), 1);
+    EXPECT_EQ(densityOf(SceneSideSamples(field)).least, 3);
+    EXPECT_EQ(radiusRatioAt(densityOf(SceneSideSamples(field)), {3, 4}, 5, 0.7f), 1);
     const std::vector<std::uint32_t> counts(field.bounds.area(), 3);
     setSampleCounts(field, counts);
     EXPECT_EQ(field.samplesPerPixel, 3);
@@ -68,7 +69,7 @@ TEST(Density, equalCountsAreNoDifference) {
 TEST(Density, constantRadianceStays) {
     for (const synthetic::Counts& counts : synthetic::varyingCounts(kFrame)) {
         LightField field = synthetic::sample(kLayers, {40, 0, 80, 31}, kOverscan, counts.at, 5);
-        for (LightFieldSample& s : field.samples) s.r = s.g = s.b = 0.7f;
+        std::ranges::fill(field.radiance, glm::vec3(0.7f));
         for (const Method method : {Method::box, Method::full, Method::automatic})
             for (const float value : reconstruct(field, method).image.pixels)
                 ASSERT_NEAR(value, 0.7f, method == Method::automatic ? 5e-4f : 1e-5f) // the map has 11 bits
@@ -84,7 +85,7 @@ TEST_P(DensityOfMethod, noHolesAndNoDrift) {
         for (const std::uint32_t seed : {1, 2}) {
             const auto run =
                 reconstruct(synthetic::sample(kLayers, kFrame, kOverscan, counts.at, seed), GetParam());
-            EXPECT_EQ(run.report.holes, 0u) << counts.name;
+            EXPECT_EQ(run.report.search.holes, 0u) << counts.name;
             EXPECT_EQ(run.report.emptyPixels, 0u) << counts.name;
             mean += meanOf(run.image) / 2;
         }

@@ -1,7 +1,7 @@
 // Brightness through real lenses stays that of brute force, in the middle and in the corners of the film,
 // however few the samples and whatever the shape of the stop.
 #include "reconstruct/cpu_reconstructor.h"
-#include "report/brute_force.h"
+#include "render/brute_force.h"
 #include "support/lenses.h"
 #include "trace/sample_pass.h"
 #include "unit/trace_scenes.h"

@@ -2,7 +2,7 @@
 // and the error falls.
 #include "image/metrics.h"
 #include "reconstruct/cpu_reconstructor.h"
-#include "support/stages.h"
+#include "support/intermediates.h"
 #include "support/synthetic.h"
 
 #include <numeric>
@@ -17,9 +17,8 @@ Image reconstruct(const LightField& field, Method method, int outputs = 32, floa
     ReconstructOptions options;
     options.method = method;
     options.outputsPerPixel = outputs;
-    options.lensScale = lensScale;
     CpuReconstructor cpu;
-    return test::run(cpu, field, options).image;
+    return test::run(cpu, field, options, {.apertureScale = lensScale}).image;
 }
 
 LightField discs(Rect frame, int spp, std::uint32_t seed) {
@@ -42,10 +41,8 @@ TEST(ReconstructStability, constantRadianceStays) {
     for (const int spp : {1, 4, 9}) {
         LightField field = discs({0, 0, 40, 31}, spp, 5);
         synthetic::Random random(9);
-        for (LightFieldSample& s : field.samples) {
-            s.r = colour.r, s.g = colour.g, s.b = colour.b;
-            s.slope = 40 * random.uniform() - 20;
-        }
+        std::ranges::fill(field.radiance, colour);
+        for (LightFieldSample& s : field.samples) s.slope = 40 * random.uniform() - 20;
         for (const Method method : kMethods) {
             const Image image = reconstruct(field, method);
             for (std::size_t i = 0; i < image.pixels.size(); ++i)

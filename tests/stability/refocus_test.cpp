@@ -1,11 +1,10 @@
 // A field traced once, seen through a lens focused elsewhere: as if it had been traced so.
 #include "image/metrics.h"
 #include "lightfield/refocus.h"
-#include "reconstruct/auxiliary.h"
 #include "reconstruct/cpu_reconstructor.h"
-#include "reconstruct/focused_bins.h"
+#include "reconstruct/field_bins.h"
 #include "support/expect_error.h"
-#include "support/stages.h"
+#include "support/intermediates.h"
 #include "support/synthetic.h"
 
 #include <cmath>
@@ -38,10 +37,10 @@ ReconstructOptions optionsOf(Method method) {
     return options;
 }
 
-Image picture(PreparedField& prepared, float slopeShift) {
+Image picture(PreparedField& prepared, float slopeShift, ValuePlane plane = ValuePlane::radiance) {
     SilentMonitor monitor;
     ReconstructReport report;
-    return prepared.picture(slopeShift, monitor, report, nullptr);
+    return prepared.picture({slopeShift}, plane, monitor, report, nullptr);
 }
 
 /// Alone.
@@ -63,14 +62,16 @@ TEST(Refocus, isAsGoodAsTracingAgain) {
 TEST(Refocus, movesSlopesAndNothingElseInTheBins) {
     const LightField field = traced(19.5f, 3, 1);
     EXPECT_NEAR(*focusDistance(field.slopeModel), 31.5 / 19.5, 1e-6);
-    const Bins before = binSamples(field, {kFrame, true});
+    const SceneSideSamples samples(field);
+    const Bins before = binSamples(samples, {kFrame, true});
     EXPECT_EQ(before.positions.size(), field.samples.size()) << "another focus may need any of them";
     const std::size_t cells = std::size_t(before.grid.cellsPerBrick * before.grid.cellsPerBrick);
-    FocusedBins focused(field, {kFrame, true});
+    FieldBins focused(samples, {kFrame, true});
     for (const double distance : {0.25, 2.0, 1e9, double(INFINITY)}) {
         const SlopeModel model = focusedAt(field, distance);
         EXPECT_NEAR(model.c2, -kC1 / distance, 1e-5);
-        const Bins& bins = focused.at(shiftTo(field, distance));
+        focused.refocus(shiftTo(field, distance));
+        const Bins& bins = focused.bins();
         EXPECT_EQ(bins.cellStart, before.cellStart);
         for (std::size_t i = 0; i < bins.positions.size(); ++i) {
             const vec4 &a = before.positions[i], &b = bins.positions[i];
@@ -87,11 +88,12 @@ TEST(Refocus, movesSlopesAndNothingElseInTheBins) {
             ASSERT_EQ(bins.bricks[k].slopeMax, high);
         }
     }
-    EXPECT_EQ(focused.at(0).positions, before.positions);
+    focused.refocus(0);
+    EXPECT_EQ(focused.bins().positions, before.positions);
 }
 
 TEST(Refocus, picturesDoNotDependOnThoseBefore) {
-    LightField field = traced(19.5f, 4, 1);
+    const LightField field = traced(19.5f, 4, 1);
     const float near = shiftTo(field, 1.1), far = shiftTo(field, 4);
     for (const Method method : {Method::full, Method::automatic}) {
         const auto prepared = CpuReconstructor().prepare(field, optionsOf(method));
@@ -103,13 +105,12 @@ TEST(Refocus, picturesDoNotDependOnThoseBefore) {
         EXPECT_EQ(series[3].pixels, series[0].pixels);
         EXPECT_NE(series[1].pixels, series[0].pixels);
 
-        LightField depths = field;
-        const auto ofDepths = CpuReconstructor().prepare(depths, optionsOf(method));
-        picture(*ofDepths, far);
-        takeValues(depths, auxiliarySets(false).back());
-        ofDepths->takeRadiances();
-        EXPECT_EQ(picture(*ofDepths, near).pixels, picture(depths, method, near).pixels);
-        EXPECT_NE(picture(*ofDepths, near).pixels, series[0].pixels);
+        const Image depths = picture(*prepared, near, ValuePlane::depth);
+        EXPECT_EQ(
+            depths.pixels,
+            picture(*CpuReconstructor().prepare(field, optionsOf(method)), near, ValuePlane::depth).pixels);
+        EXPECT_NE(depths.pixels, series[0].pixels);
+        EXPECT_EQ(picture(*prepared, near).pixels, series[0].pixels) << "the field is as it was";
     }
 }
 
@@ -137,11 +138,11 @@ TEST(Refocus, isRefusedWhereItIsNotPrepared) {
 
 TEST(Refocus, saysHowMuchOverscanIsMissing) {
     const LightField field = traced(19.5f, 4, 1);
-    EXPECT_EQ(missingOverscanPx(field, 0, 1), 0);
+    EXPECT_EQ(missingOverscanPx(field, {0, 1}), 0);
     // Depth 1 is then 31.5 - 10.5 = 21 pixels out of focus, and 42 through a lens of twice the size.
     const float far = shiftTo(field, 3);
-    EXPECT_EQ(missingOverscanPx(field, far, 1), 0);
-    EXPECT_NEAR(missingOverscanPx(field, far, 2), 42 - 24, 2);
+    EXPECT_EQ(missingOverscanPx(field, {far, 1}), 0);
+    EXPECT_NEAR(missingOverscanPx(field, {far, 2}), 42 - 24, 2);
 }
 
 TEST(Refocus, refusesWhatIsNoThinLens) {

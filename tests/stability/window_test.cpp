@@ -1,7 +1,7 @@
 // The method `window` against the words of its description in double precision, and where it fails.
 #include "reconstruct/cpu_reconstructor.h"
 #include "reconstruct/window.h"
-#include "support/stages.h"
+#include "support/intermediates.h"
 #include "support/synthetic.h"
 
 #include <algorithm>
@@ -29,12 +29,11 @@ Points pointsAround(const LightField& field, const WindowSearch& search, ivec2 p
             for (int k = 0; k < field.samplesPerPixel; ++k) {
                 const std::size_t place =
                     std::size_t((y - field.bounds.y0) * field.bounds.width() + (x - field.bounds.x0));
-                const LightFieldSample& s =
-                    field.samples[place * std::size_t(field.samplesPerPixel) + std::size_t(k)];
+                const std::size_t sample = place * std::size_t(field.samplesPerPixel) + std::size_t(k);
+                const LightFieldSample& s = field.samples[sample];
                 const Point p{s.x + (double(o.uv.x) - s.u) * s.slope - o.xy.x,
-                              s.y + (double(o.uv.y) - s.v) * s.slope - o.xy.y,
-                              s.slope,
-                              {s.r, s.g, s.b}};
+                              s.y + (double(o.uv.y) - s.v) * s.slope - o.xy.y, s.slope,
+                              glm::dvec3(field.radiance[sample])};
                 if (std::hypot(p.x, p.y) < radiusPx) points.push_back(p);
             }
         }
@@ -84,7 +83,7 @@ TEST(Window, equalsItsDescriptionInDoublePrecision) {
                                        {1, {.rangePx = 9, .alpha = 0.7f}},
                                        {9, {.rangePx = 6, .alpha = 8, .lensStep = 0.05f}}}) {
         const LightField field = synthetic::sample(synthetic::discsOverChecks(), {0, 0, 40, 30}, 15, spp, 3);
-        const WindowSamples samples = windowSamples(field);
+        const WindowSamples samples = windowSamples(SceneSideSamples(field), ValuePlane::radiance);
         const WindowSearch search = windowSearch(field, options);
         const OutputPattern pattern = makeOutputPattern(2, 0);
         std::vector<WindowCandidate> scratch;
@@ -140,20 +139,20 @@ double meanOf(const Image& image) {
 TEST(Window, blurThatOutrunsItLeavesBlackHoles) {
     for (const int spp : {4, 16}) {
         const auto within = reconstruct(plane(1.5f, spp), Method::window);
-        EXPECT_EQ(within.report.holes, 0u);
+        EXPECT_EQ(within.report.search.holes, 0u);
         EXPECT_NEAR(meanOf(within.image), 1, 1e-5);
 
         const LightField blurred = plane(14, spp);
         const auto window = reconstruct(blurred, Method::window);
-        EXPECT_GT(window.report.holes, window.report.outputs / 10);
-        EXPECT_NEAR(meanOf(window.image), 1 - double(window.report.holes) / double(window.report.outputs),
-                    0.02);
+        EXPECT_GT(window.report.search.holes, window.report.outputs / 10);
+        EXPECT_NEAR(meanOf(window.image),
+                    1 - double(window.report.search.holes) / double(window.report.outputs), 0.02);
         const auto filled = reconstruct(blurred, Method::window, true);
-        EXPECT_EQ(filled.report.holes, 0u);
-        EXPECT_EQ(filled.report.widened, window.report.holes);
+        EXPECT_EQ(filled.report.search.holes, 0u);
+        EXPECT_EQ(filled.report.search.widened, window.report.search.holes);
         EXPECT_NEAR(meanOf(filled.image), 1, 1e-5);
         const auto full = reconstruct(blurred, Method::full);
-        EXPECT_EQ(full.report.holes, 0u);
+        EXPECT_EQ(full.report.search.holes, 0u);
         EXPECT_NEAR(meanOf(full.image), 1, 1e-5);
     }
 }

@@ -21,7 +21,7 @@ inline FieldFile richField(int spp = 3) {
         LightFieldSample& s = field.samples[i];
         s.w = 0.7f + float(i % 13) / 3;
         if (i % 11 == 0) s.w = rubbish[i / 11 % rubbish.size()];
-        if (i % 17 == 0) s.g = rubbish[i / 17 % rubbish.size()];
+        if (i % 17 == 0) field.radiance[i].g = rubbish[i / 17 % rubbish.size()];
         s.alpha = std::isinf(s.w) ? 0.f : 1.f;
         s.slope = field.slopeModel(s.w);
     }
@@ -37,11 +37,12 @@ inline FieldFile richField(int spp = 3) {
 
 /// Bits, so that NaN equals itself.
 inline bool sameBits(const LightField& a, const LightField& b) {
-    return a.samples.size() == b.samples.size() && a.auxiliary.size() == b.auxiliary.size() &&
-           std::memcmp(a.samples.data(), b.samples.data(), a.samples.size() * sizeof(LightFieldSample)) ==
-               0 &&
-           (a.auxiliary.empty() || std::memcmp(a.auxiliary.data(), b.auxiliary.data(),
-                                               a.auxiliary.size() * sizeof(AuxiliarySample)) == 0);
+    const auto same = [](const auto& left, const auto& right) {
+        return left.size() == right.size() &&
+               (left.empty() || std::memcmp(left.data(), right.data(), left.size() * sizeof(left[0])) == 0);
+    };
+    return same(a.samples, b.samples) && same(a.radiance, b.radiance) && same(a.albedo, b.albedo) &&
+           same(a.normal, b.normal);
 }
 
 } // namespace slant::test

@@ -31,20 +31,21 @@ struct Layer {
     std::function<glm::vec3(glm::vec2)> colour;
 };
 
-/// The nearest layer (they are ordered front to back) that is hit, as a sample.
-inline LightFieldSample look(const std::vector<Layer>& layers, glm::vec2 xy, glm::vec2 uv, float t) {
-    LightFieldSample s{xy.x, xy.y, uv.x, uv.y, t, INFINITY, 0, 0, 0, 0, 0, 0};
+/// Adds the nearest layer (they are ordered front to back) that is hit, as a sample.
+inline void look(LightField& field, const std::vector<Layer>& layers, glm::vec2 xy, glm::vec2 uv, float t) {
+    LightFieldSample s{xy.x, xy.y, uv.x, uv.y, t, INFINITY, 0, 0};
+    glm::vec3 radiance(0);
     for (std::size_t i = 0; i < layers.size(); ++i) {
         const glm::vec2 p = xy - layers[i].slope * uv;
         if (!layers[i].inside(p)) continue;
-        const glm::vec3 colour = layers[i].colour(p);
         s.w = float(i + 1);
         s.slope = layers[i].slope;
         s.alpha = 1;
-        s.r = colour.r, s.g = colour.g, s.b = colour.b;
+        radiance = layers[i].colour(p);
         break;
     }
-    return s;
+    field.samples.push_back(s);
+    field.radiance.push_back(radiance);
 }
 
 /// Adds a pixel's samples: a sqrt(spp)-ish grid in the pixel, jittered, and a shuffled one on the lens.
@@ -62,7 +63,7 @@ inline void addPixel(LightField& field, const std::vector<Layer>& layers, int x,
         const float phi = 6.2831853f * std::fmod(float(j) * 0.618034f + random.uniform() / float(spp), 1.f);
         const glm::vec2 lens = aperture.isDisc() ? r * glm::vec2(std::cos(phi), std::sin(phi))
                                                  : aperture.at({2 * r * r - 1, phi * (2 / 6.2831853f) - 1});
-        field.samples.push_back(look(layers, {float(x) + fx, float(y) + fy}, lens, random.uniform()));
+        look(field, layers, {float(x) + fx, float(y) + fy}, lens, random.uniform());
     }
 }
 

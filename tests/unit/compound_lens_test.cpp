@@ -236,10 +236,11 @@ TEST(CompoundLens, tracesCleanLightFields) {
         LightField field = traceLightField(tracer, scene, {}, monitor);
         EXPECT_EQ(sanitize(field).total(), 0u) << c.lens;
         // Without the sphere there is radiance 1 all around.
-        std::vector<LightFieldSample> corner(64);
-        tracer.trace({2, 2, 3, 3}, 0, 64, 64, 0, corner, {}, monitor);
+        SampleSet corner;
+        corner.resize(64, false);
+        tracer.trace({2, 2, 3, 3}, 0, 64, 64, 0, spansOf(corner), monitor);
         double sum = 0;
-        for (const LightFieldSample& s : corner) sum += double(s.g);
+        for (const glm::vec3& rgb : corner.radiance) sum += double(rgb.g);
         EXPECT_NEAR(sum / 64 / meanWeight(cameraOf(c), {2.5f, 2.5f}).first, 1, 0.02) << c.lens;
     }
 }

@@ -85,7 +85,8 @@ TEST_F(FieldFiles, exrHoldsAnyNumberOfSamplesInEachPixel) {
         file.field.slopeModel = {-35.25f, 11.125f};
         for (LightFieldSample& s : file.field.samples) {
             s.slope = file.field.slopeModel(s.w);
-            file.field.auxiliary.push_back({glm::vec3(s.x), glm::vec3(s.y, 0, 1)});
+            file.field.albedo.emplace_back(s.x);
+            file.field.normal.emplace_back(s.y, 0, 1);
         }
         ASSERT_FALSE(file.field.pixelStart.empty());
         write("a.exr", file);
@@ -165,8 +166,10 @@ TEST_F(FieldFiles, exrKeepsAlbedoNormalsAndSlopesOfTheirOwn) {
     FieldFile file = richField();
     synthetic::Random random(4);
     const auto vector = [&] { return glm::vec3(random.uniform(), random.uniform(), random.uniform()); };
-    for (std::size_t i = 0; i < file.field.samples.size(); ++i)
-        file.field.auxiliary.push_back({vector(), vector()});
+    for (std::size_t i = 0; i < file.field.samples.size(); ++i) {
+        file.field.albedo.push_back(vector());
+        file.field.normal.push_back(vector());
+    }
     for (std::size_t i = 0; i < file.field.samples.size(); i += 7) file.field.samples[i].slope = 5 + float(i);
     EXPECT_TRUE(hasOwnSlopes(file.field));
     write("a.exr", file);
@@ -201,14 +204,14 @@ TEST_F(FieldFiles, tlfrReadsItsHeaderByEitherNameAndInEverySpelling) {
                 const LightFieldSample &s = file.field.samples[0], &far = file.field.samples[2];
                 EXPECT_EQ(s.x, 0.25f);
                 EXPECT_EQ(s.v, -0.2f);
-                EXPECT_EQ(s.b, 3);
+                EXPECT_EQ(file.field.radiance[0].b, 3);
                 EXPECT_EQ(s.alpha, 1);
                 EXPECT_EQ(s.slope, -15.242497f / 2 + 19.053122f);
                 EXPECT_EQ(far.alpha, 0);
                 EXPECT_EQ(far.slope, 19.053122f);
                 EXPECT_EQ(far.t, 0);
-                EXPECT_TRUE(std::isinf(far.b));
-                EXPECT_TRUE(std::isnan(file.field.samples[3].r));
+                EXPECT_TRUE(std::isinf(file.field.radiance[2].b));
+                EXPECT_TRUE(std::isnan(file.field.radiance[3].r));
             }
         }
 }
@@ -233,7 +236,7 @@ TEST_F(FieldFiles, deepFilesOfOthersNeedLittle) {
     const LightFieldSample& s = got.field.samples[2 * (5 + 3)];
     EXPECT_EQ(s.x, 3.5f);
     EXPECT_EQ(s.y, 1.5f);
-    EXPECT_EQ(s.r, 0.5f);
+    EXPECT_EQ(got.field.radiance[2 * (5 + 3)].r, 0.5f);
     EXPECT_EQ(s.t, 0);
     EXPECT_EQ(s.alpha, 1);
     EXPECT_EQ(s.slope, 1);

@@ -25,7 +25,9 @@ struct Fixture {
 
     explicit Fixture(const std::vector<synthetic::Layer>& layers, int spp = 16) {
         const LightField field = synthetic::sample(layers, kFrame, 15, spp, 3);
-        bins = binSamples(field, {kFrame});
+        const SceneSideSamples samples(field);
+        bins = binSamples(samples, {kFrame});
+        takeValues(bins, samples, ValuePlane::radiance);
         map = makeLayerMap(
             bins, chooseMap(bins.grid, kFrame, mapTexelsPerPixel(field), mapReach(bins.grid, 1), 0.5f));
         allBricks.resize(bins.bricks.size());

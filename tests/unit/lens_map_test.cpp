@@ -148,14 +148,17 @@ TEST_P(LensMapOf, samplesOnTheScenesSideKeepTheRadianceOfTheScene) {
     field.slopeModel = camera_.slopeModel();
     field.lensMap = map_;
     const float bright = map_.at({100.5f, 70.5f}, {0, 0}).weight;
-    field.samples = {{100.5f, 70.5f, 0, 0, 0, 1, 0.25f, 1, bright, 2 * bright, 0, 0},
-                     {-5000, 0, 0, 0, 0, 1, 0.25f, 1, 0, 0, 0, 0}};
-    const LightField sceneSide = onSceneSide(field);
-    EXPECT_NEAR(sceneSide.samples[0].r, 1, 1e-6);
-    EXPECT_NEAR(sceneSide.samples[0].g, 2, 1e-6);
-    EXPECT_EQ(sceneSide.samples[0].slope, 0.25f);
-    EXPECT_GT(sceneSide.samples[0].areaExcess, -0.5f);
-    EXPECT_TRUE(std::isnan(sceneSide.samples[1].slope)) << "where the film is dark";
+    field.samples = {{100.5f, 70.5f, 0, 0, 0, 1, 0.25f, 1}, {-5000, 0, 0, 0, 0, 1, 0.25f, 1}};
+    field.radiance = {{bright, 2 * bright, 0}, {3, 3, 3}};
+    const SceneSideSamples sceneSide(field);
+    const glm::vec3 radiance = sceneSide.value(ValuePlane::radiance, 0);
+    EXPECT_NEAR(radiance.r, 1, 1e-6);
+    EXPECT_NEAR(radiance.g, 2, 1e-6);
+    EXPECT_EQ(sceneSide.samples()[0].slope, 0.25f);
+    EXPECT_GT(sceneSide.areaExcess()[0], -0.5f);
+    EXPECT_TRUE(std::isnan(sceneSide.samples()[1].slope)) << "where the film is dark";
+    EXPECT_EQ(sceneSide.value(ValuePlane::radiance, 1), glm::vec3(0));
+    EXPECT_EQ(SceneSideSamples(field, false).value(ValuePlane::radiance, 0), field.radiance[0]);
 }
 
 INSTANTIATE_TEST_SUITE_P(Lenses, LensMapOf,

@@ -30,9 +30,9 @@ class Occlusion : public testing::TestWithParam<int> {};
 
 TEST_P(Occlusion, partOfTheLensBehindAnEdge) {
     const LightField field = halfPlaneBeforePlane(GetParam());
-    const GridLayout grid = chooseGrid(field, densityOf(field), {kFrame});
-    const OcclusionLayout layout = chooseOcclusion(grid, densityOf(field));
-    const std::vector<uint> stopped = countStopped(field, grid, layout);
+    const GridLayout grid = chooseGrid(field.samples, densityOf(SceneSideSamples(field)), {kFrame});
+    const OcclusionLayout layout = chooseOcclusion(grid, densityOf(SceneSideSamples(field)));
+    const std::vector<uint> stopped = countStopped(field.samples, grid, layout);
     // A ray to p on the plane behind passes the front at p + (kBack - kFront) u.
     for (float x = 36.5f; x < 60; x += 1) {
         double mean = 0;
@@ -48,9 +48,9 @@ TEST_P(Occlusion, partOfTheLensBehindAnEdge) {
 
 TEST_P(Occlusion, nothingHidesTheFront) {
     const LightField field = halfPlaneBeforePlane(GetParam());
-    const GridLayout grid = chooseGrid(field, densityOf(field), {kFrame});
-    const OcclusionLayout layout = chooseOcclusion(grid, densityOf(field));
-    const std::vector<uint> stopped = countStopped(field, grid, layout);
+    const GridLayout grid = chooseGrid(field.samples, densityOf(SceneSideSamples(field)), {kFrame});
+    const OcclusionLayout layout = chooseOcclusion(grid, densityOf(SceneSideSamples(field)));
+    const std::vector<uint> stopped = countStopped(field.samples, grid, layout);
     for (float x = 0; x < 48; x += 1)
         EXPECT_EQ(visibilityWeight(stopped, grid, layout, vec2(x, 30), kFront, 1), 1);
 }

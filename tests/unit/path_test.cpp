@@ -272,14 +272,14 @@ TEST(Path, AuxiliaryChannelsDescribeTheFirstHit) {
     PathState state = startPath(down);
     SurfaceHit hit;
     ShadowRay shadow;
-    AuxiliarySample auxiliary;
+    SurfaceGuides guides;
     ASSERT_TRUE(geometry.intersect(down, hit));
-    EXPECT_FALSE(scatter(shading, hit, 0, random, state, shadow, &auxiliary));
-    EXPECT_EQ(auxiliary.albedo, glm::vec3(0.7f, 0.5f, 0.3f));
-    EXPECT_EQ(auxiliary.normal, glm::vec3(0, 0, 1));
+    EXPECT_FALSE(scatter(shading, hit, 0, random, state, shadow, &guides));
+    EXPECT_EQ(guides.albedo, glm::vec3(0.7f, 0.5f, 0.3f));
+    EXPECT_EQ(guides.normal, glm::vec3(0, 0, 1));
     EXPECT_FALSE(shadow.needed());
-    EXPECT_FALSE(scatter(shading, SurfaceHit{}, 5, random, state, shadow, &auxiliary));
-    EXPECT_EQ(auxiliary.albedo, glm::vec3(0));
+    EXPECT_FALSE(scatter(shading, SurfaceHit{}, 5, random, state, shadow, &guides));
+    EXPECT_EQ(guides.albedo, glm::vec3(0));
 }
 
 TEST(Path, OneShadowRayIsAllOfDirectDiffuseLight) {

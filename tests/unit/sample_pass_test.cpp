@@ -46,11 +46,16 @@ bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
-std::vector<LightFieldSample> trace(const Tracer& tracer, Rect pixels, int first, int count, int spp) {
-    std::vector<LightFieldSample> samples(pixels.area() * std::size_t(count));
+SampleSet traceSet(const Tracer& tracer, Rect pixels, int first, int count, int spp, bool guides = false) {
+    SampleSet set;
+    set.resize(pixels.area() * std::size_t(count), guides);
     SilentMonitor monitor;
-    tracer.trace(pixels, first, count, spp, 11, samples, {}, monitor);
-    return samples;
+    tracer.trace(pixels, first, count, spp, 11, spansOf(set), monitor);
+    return set;
+}
+
+std::vector<LightFieldSample> trace(const Tracer& tracer, Rect pixels, int first, int count, int spp) {
+    return traceSet(tracer, pixels, first, count, spp).samples;
 }
 
 TEST(Tracer, SamplesLieInTheirPixelsAndOnTheirTrajectories) {
@@ -58,7 +63,9 @@ TEST(Tracer, SamplesLieInTheirPixelsAndOnTheirTrajectories) {
     SilentMonitor monitor;
     Tracer tracer(scene, monitor);
     Rect pixels{-3, -2, 41, 25};
-    std::vector<LightFieldSample> samples = trace(tracer, pixels, 0, 5, 5);
+    const SampleSet set = traceSet(tracer, pixels, 0, 5, 5);
+    const std::vector<LightFieldSample>& samples = set.samples;
+    for (const glm::vec3& rgb : set.radiance) EXPECT_TRUE(std::isfinite(rgb.r + rgb.g + rgb.b));
     SlopeModel slope = tracer.camera().slopeModel();
     int near = 0;
     for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -70,7 +77,6 @@ TEST(Tracer, SamplesLieInTheirPixelsAndOnTheirTrajectories) {
         EXPECT_TRUE(s.t >= 0 && s.t < 1);
         EXPECT_EQ(s.alpha, s.w < INFINITY ? 1.f : 0.f);
         EXPECT_EQ(s.slope, slope(s.w));
-        EXPECT_TRUE(std::isfinite(s.r + s.g + s.b));
         if (s.w < 3) ++near;
         // The wall is flat.
         EXPECT_TRUE(s.w < 6 || s.alpha == 0 || std::abs(s.w - 12) < 1e-4f) << s.w;
@@ -117,8 +123,8 @@ TEST(Tracer, AConvexBodyUnderAConstantSkyShowsItsReflectance) {
     auto mean = [&] {
         Tracer tracer(scene, monitor);
         glm::dvec3 sum(0);
-        for (const LightFieldSample& s : trace(tracer, {0, 0, 16, 16}, 0, 64, 64))
-            sum += glm::dvec3(s.r, s.g, s.b);
+        for (const glm::vec3& rgb : traceSet(tracer, {0, 0, 16, 16}, 0, 64, 64).radiance)
+            sum += glm::dvec3(rgb);
         return sum / (16.0 * 16.0 * 64.0);
     };
     glm::dvec3 bright = mean();
@@ -140,14 +146,12 @@ TEST(Tracer, RecordsAlbedoAndNormalTowardsTheCamera) {
     SilentMonitor monitor;
     Tracer tracer(scene, monitor);
     Rect pixels{0, 0, 24, 16};
-    std::vector<LightFieldSample> samples(pixels.area() * 2);
-    std::vector<AuxiliarySample> auxiliary(samples.size());
-    tracer.trace(pixels, 0, 2, 2, 1, samples, auxiliary, monitor);
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        bool hit = samples[i].alpha > 0;
-        EXPECT_NEAR(glm::length(auxiliary[i].normal), hit ? 1 : 0, 1e-5);
-        EXPECT_NEAR(auxiliary[i].albedo.g, hit ? 0.5 : 0, 1e-5);
-        EXPECT_LT(auxiliary[i].normal.z, 0.3f);
+    const SampleSet set = traceSet(tracer, pixels, 0, 2, 2, true);
+    for (std::size_t i = 0; i < set.samples.size(); ++i) {
+        bool hit = set.samples[i].alpha > 0;
+        EXPECT_NEAR(glm::length(set.normal[i]), hit ? 1 : 0, 1e-5);
+        EXPECT_NEAR(set.albedo[i].g, hit ? 0.5 : 0, 1e-5);
+        EXPECT_LT(set.normal[i].z, 0.3f);
     }
 }
 
@@ -155,14 +159,19 @@ TEST(Tracer, RefusesBuffersThatDoNotFit) {
     Scene scene = ballScene(8, 8);
     SilentMonitor monitor;
     Tracer tracer(scene, monitor);
-    std::vector<LightFieldSample> samples(64 * 4);
-    std::vector<AuxiliarySample> auxiliary(3);
+    SampleSet set;
+    set.resize(64 * 4, false);
+    const SampleSpans all = spansOf(set);
+    std::vector<glm::vec3> three(3);
     Rect pixels{0, 0, 8, 8};
-    EXPECT_THROW(tracer.trace(pixels, 0, 3, 4, 0, samples, {}, monitor), Error);
-    EXPECT_THROW(tracer.trace(pixels, 1, 4, 4, 0, samples, {}, monitor), Error);
-    EXPECT_THROW(tracer.trace(pixels, 0, 4, 4, 0, samples, auxiliary, monitor), Error);
-    EXPECT_NO_THROW(tracer.trace(pixels, 0, 4, 4, 0, samples, {}, monitor));
-    EXPECT_NO_THROW(tracer.trace({4, 4, 4, 4}, 0, 4, 4, 0, {}, {}, monitor));
+    EXPECT_THROW(tracer.trace(pixels, 0, 3, 4, 0, all, monitor), Error);
+    EXPECT_THROW(tracer.trace(pixels, 1, 4, 4, 0, all, monitor), Error);
+    EXPECT_THROW(tracer.trace(pixels, 0, 4, 4, 0, {all.samples, {}, {}, {}}, monitor), Error);
+    EXPECT_THROW(tracer.trace(pixels, 0, 4, 4, 0, {all.samples, all.radiance, three, three}, monitor), Error);
+    EXPECT_THROW(tracer.trace(pixels, 0, 4, 4, 0, {all.samples, all.radiance, all.radiance, {}}, monitor),
+                 Error);
+    EXPECT_NO_THROW(tracer.trace(pixels, 0, 4, 4, 0, all, monitor));
+    EXPECT_NO_THROW(tracer.trace({4, 4, 4, 4}, 0, 4, 4, 0, {}, monitor));
 }
 
 TEST(SamplePass, OverscanReachesAsFarAsTheBlur) {
@@ -172,11 +181,13 @@ TEST(SamplePass, OverscanReachesAsFarAsTheBlur) {
     Tracer tracer(scene, monitor);
     SampleOptions options;
     options.samplesPerPixel = 4;
-    options.auxiliary = true;
+    options.guides = true;
     LightField field = traceLightField(tracer, scene, options, monitor);
     EXPECT_EQ(field.frame, scene.film.crop);
     EXPECT_EQ(field.samples.size(), field.bounds.area() * 4);
-    EXPECT_EQ(field.auxiliary.size(), field.samples.size());
+    EXPECT_EQ(field.radiance.size(), field.samples.size());
+    EXPECT_EQ(field.albedo.size(), field.samples.size());
+    EXPECT_EQ(field.normal.size(), field.samples.size());
     EXPECT_EQ(monitor.items, field.samples.size());
     EXPECT_EQ(monitor.total, field.samples.size());
     EXPECT_TRUE(monitor.warnings.empty());
@@ -190,9 +201,10 @@ TEST(SamplePass, OverscanReachesAsFarAsTheBlur) {
         EXPECT_LE(side, widest);
     }
     EXPECT_TRUE(sameBits(field.samples, [&] {
-        std::vector<LightFieldSample> samples(field.samples.size());
-        tracer.trace(field.bounds, 0, 4, 4, options.seed, samples, {}, monitor);
-        return samples;
+        SampleSet set;
+        set.resize(field.samples.size(), false);
+        tracer.trace(field.bounds, 0, 4, 4, options.seed, spansOf(set), monitor);
+        return set.samples;
     }()));
 }
 

@@ -1,4 +1,4 @@
-#include "compute/backend.h"
+#include "render/backend.h"
 
 #include "compute/compute_reconstructor.h"
 #include "reconstruct/cpu_reconstructor.h"

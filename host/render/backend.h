@@ -1,7 +1,7 @@
 // What runs the reconstruction: the program's own CPU code, or a Vulkan device.
 #pragma once
 #include "compute/device.h"
-#include "reconstruct/method.h"
+#include "reconstruct/prepared_field.h"
 
 #include <memory>
 #include <string>

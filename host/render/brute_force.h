@@ -18,7 +18,7 @@ struct BruteForce {
 
 /// The same pattern and pixel filter as method `box` of scene.pixelSamples samples, at any number of them in
 /// bounded memory. One stage "trace" of the monitor.
-/// With `auxiliary` the image has the channels of reconstruct/auxiliary.h, too.
+/// With `auxiliary` the image has the channels of render/auxiliary.h, too.
 BruteForce bruteForce(const Scene& scene, const Tracer& tracer, std::uint64_t seed, Monitor& monitor,
                       bool auxiliary = false);
 

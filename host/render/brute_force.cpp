@@ -1,8 +1,8 @@
-#include "report/brute_force.h"
+#include "render/brute_force.h"
 
-#include "reconstruct/auxiliary.h"
 #include "reconstruct/film_buffer.h"
 #include "reconstruct/plan.h"
+#include "render/auxiliary.h"
 
 #include <algorithm>
 
@@ -27,21 +27,22 @@ BruteForce bruteForce(const Scene& scene, const Tracer& tracer, std::uint64_t se
     monitor.beginStage("trace", batch.bounds.area() * std::uint64_t(scene.pixelSamples), "samples");
     for (int first = 0; first < scene.pixelSamples; first += kBatch) {
         batch.samplesPerPixel = std::min(kBatch, scene.pixelSamples - first);
-        batch.samples.resize(batch.bounds.area() * std::size_t(batch.samplesPerPixel));
-        batch.auxiliary.resize(auxiliary ? batch.samples.size() : 0);
-        tracer.trace(batch.bounds, first, batch.samplesPerPixel, scene.pixelSamples, seed, batch.samples,
-                     batch.auxiliary, monitor);
+        batch.resize(batch.bounds.area() * std::size_t(batch.samplesPerPixel), auxiliary);
+        tracer.trace(batch.bounds, first, batch.samplesPerPixel, scene.pixelSamples, seed, spansOf(batch),
+                     monitor);
         result.defects.add(sanitize(batch));
-        film.accumulate(denseFromInput(batch, batch.bounds), film.frame().y0, film.frame().y1);
-        for (std::size_t i = 0; i < sets.size(); ++i) {
-            takeValues(batch, sets[i]);
-            setFilms[i].accumulate(denseFromInput(batch, batch.bounds), film.frame().y0, film.frame().y1);
-        }
+        const auto add = [&](FilmBuffer& to, ValuePlane plane) {
+            to.accumulate(denseFromInput(batch, plane, batch.bounds), to.frame().y0, to.frame().y1);
+        };
+        add(film, ValuePlane::radiance);
+        for (std::size_t i = 0; i < sets.size(); ++i) add(setFilms[i], sets[i].plane);
     }
     monitor.endStage();
-    result.image = film.toImage(result.emptyPixels);
-    for (std::size_t i = 0; i < sets.size(); ++i)
-        addChannels(result.image, sets[i], setFilms[i].toImage(result.emptyPixels));
+    const auto imageOf = [&](const FilmBuffer& each) {
+        return filmImage(each.frame(), each.sums(), result.emptyPixels);
+    };
+    result.image = imageOf(film);
+    for (std::size_t i = 0; i < sets.size(); ++i) addChannels(result.image, sets[i], imageOf(setFilms[i]));
     return result;
 }
 

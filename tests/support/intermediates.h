@@ -1,6 +1,6 @@
 // What a reconstruction makes, kept whole, and two such runs held against each other.
 #pragma once
-#include "reconstruct/method.h"
+#include "reconstruct/prepared_field.h"
 
 #include <algorithm>
 #include <bit>
@@ -10,8 +10,8 @@
 
 namespace slant::test {
 
-struct Stages : IntermediateObserver {
-    void stage(const std::string& name, std::span<const uint> words) override {
+struct Intermediates : IntermediateObserver {
+    void receive(const std::string& name, std::span<const uint> words) override {
         names.push_back(name);
         contents.emplace_back(words.begin(), words.end());
     }
@@ -20,27 +20,29 @@ struct Stages : IntermediateObserver {
 };
 
 struct Reconstruction {
-    Stages stages;
+    Intermediates intermediates;
     ReconstructReport report;
     Image image;
 };
 
 inline Reconstruction run(Reconstructor& reconstructor, const LightField& field,
-                          const ReconstructOptions& options) {
+                          const ReconstructOptions& options, const LensView& view = {},
+                          ValuePlane plane = ValuePlane::radiance) {
     Reconstruction run;
     SilentMonitor monitor;
-    run.image = reconstructor.reconstruct(field, options, monitor, run.report, &run.stages);
+    run.image =
+        reconstructor.reconstruct(field, options, monitor, run.report, &run.intermediates, view, plane);
     return run;
 }
 
-/// Every word of every stage.
-inline void expectEqual(const Stages& expected, const Stages& got) {
+/// Every word of every intermediate.
+inline void expectEqual(const Intermediates& expected, const Intermediates& got) {
     ASSERT_EQ(expected.names, got.names);
     for (std::size_t i = 0; i < expected.names.size(); ++i) {
         const std::vector<uint>&a = expected.contents[i], &b = got.contents[i];
         ASSERT_EQ(a.size(), b.size()) << expected.names[i];
         const std::size_t word = std::size_t(std::mismatch(a.begin(), a.end(), b.begin()).first - a.begin());
-        ASSERT_EQ(word, a.size()) << "stage " << i << " '" << expected.names[i] << "': expected "
+        ASSERT_EQ(word, a.size()) << "intermediate " << i << " '" << expected.names[i] << "': expected "
                                   << std::bit_cast<float>(a[word]) << ", got "
                                   << std::bit_cast<float>(b[word]);
     }

@@ -1,4 +1,4 @@
-#include "reconstruct/focused_bins.h"
+#include "reconstruct/field_bins.h"
 
 #include "base/parallel.h"
 
@@ -9,8 +9,8 @@ GridLayout refocused(GridLayout grid, float slopeShift) {
     return grid;
 }
 
-const Bins& FocusedBins::at(float slopeShift) {
-    if (slopeShift == slopeShift_) return bins_;
+void FieldBins::refocus(float slopeShift) {
+    if (slopeShift == slopeShift_) return;
     if (tracedPositions_.empty()) {
         tracedGrid_ = bins_.grid;
         tracedBricks_ = bins_.bricks;
@@ -24,16 +24,6 @@ const Bins& FocusedBins::at(float slopeShift) {
     }
     parallelFor(0, bins_.positions.size(), 1 << 15, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) bins_.positions[i].z = tracedPositions_[i].z + slopeShift;
-    });
-    return bins_;
-}
-
-void FocusedBins::takeRadiances(const LightField& field) {
-    parallelFor(0, bins_.radiances.size(), 1 << 15, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            const LightFieldSample& s = field.samples[bins_.samples[i]];
-            bins_.radiances[i] = vec4(s.r, s.g, s.b, bins_.radiances[i].w);
-        }
     });
 }
 

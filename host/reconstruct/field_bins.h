@@ -1,8 +1,8 @@
-// The bins of one field, for pictures at any focus and of anything that the samples know.
+// The bins of one field, for pictures at any focus and of any plane of values.
 //
 // Another focus adds the same to all slopes (lightfield/refocus.h). Pinhole positions stay, and with them the
 // cells, the buckets, the order of records and what hides what. So a field is binned once, and a focus has
-// only slopes of its own. The compute path does the same (compute/focused_bins.h).
+// only slopes of its own. The compute path does the same (compute/device_field_bins.h).
 #pragma once
 #include "reconstruct/bins.h"
 
@@ -11,17 +11,18 @@ namespace slant {
 /// A grid for slopes that are so much greater.
 GridLayout refocused(GridLayout grid, float slopeShift);
 
-class FocusedBins {
+class FieldBins {
 public:
-    FocusedBins(const LightField& field, const BinScope& scope) : bins_(binSamples(field, scope)) {}
+    FieldBins(const SceneSideSamples& samples, const BinScope& scope)
+        : samples_(samples), bins_(binSamples(samples, scope)) {}
 
-    /// The bins of samples whose slopes are so much greater than traced; good until the next call.
-    const Bins& at(float slopeShift);
-
-    /// Takes the radiances that the samples have by now; nothing else of `field` may have changed.
-    void takeRadiances(const LightField& field);
+    /// Slopes are so much greater than traced from now on.
+    void refocus(float slopeShift);
+    void takeValues(ValuePlane plane) { slant::takeValues(bins_, samples_, plane); }
+    const Bins& bins() const { return bins_; }
 
 private:
+    const SceneSideSamples& samples_;
     Bins bins_; ///< at the focus that was asked for last
     float slopeShift_ = 0;
     /// As traced; empty until another focus is asked for.

@@ -1,0 +1,38 @@
+#include "lightfield/value_plane.h"
+
+#include <cmath>
+
+namespace slant {
+namespace {
+
+glm::vec3 normalValue(const glm::vec3& n) {
+    return std::isfinite(n.x + n.y + n.z) ? 0.5f * n + 0.5f : glm::vec3(0.5f);
+}
+
+glm::vec3 unchecked(const LightField& field, ValuePlane plane, std::size_t sample) {
+    const LightFieldSample& s = field.samples[sample];
+    const bool hit = !std::isinf(s.w);
+    switch (plane) {
+    case ValuePlane::radiance:
+        return field.radiance[sample];
+    case ValuePlane::coverage:
+        return glm::vec3(hit ? 1 : 0);
+    case ValuePlane::depth:
+        return glm::vec3(hit ? s.w : 0);
+    case ValuePlane::albedo:
+        return field.hasGuides() ? field.albedo[sample] : glm::vec3(0);
+    case ValuePlane::normal:
+        return normalValue(field.hasGuides() ? field.normal[sample] : glm::vec3(0));
+    }
+    return glm::vec3(0);
+}
+
+} // namespace
+
+glm::vec3 valueOf(const LightField& field, ValuePlane plane, std::size_t sample) {
+    const auto valid = [](float value) { return std::isfinite(value) && value > 0 ? value : 0.f; };
+    const glm::vec3 value = unchecked(field, plane, sample);
+    return {valid(value.x), valid(value.y), valid(value.z)};
+}
+
+} // namespace slant

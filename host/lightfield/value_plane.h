@@ -1,0 +1,24 @@
+// Values of the samples that a picture can be made of.
+#pragma once
+#include "lightfield/lightfield.h"
+
+namespace slant {
+
+/// - radiance: as it stands in the field;
+/// - coverage: 1 for samples that hit something, else 0;
+/// - depth: of those that did, else 0;
+/// - albedo; normal, moved to [0, 1] by n / 2 + 1 / 2 (signed again by fromNormalValue).
+///
+/// Whatever plane a picture shows, its values are neither negative nor infinite, and those of a plane are of
+/// one order of magnitude: the layer map keeps them with a common exponent.
+enum class ValuePlane { radiance, coverage, depth, albedo, normal };
+
+/// The value of one sample. Whatever is negative or not finite is 0; albedo and normal of a field without
+/// them are those of a sample that hit nothing.
+glm::vec3 valueOf(const LightField& field, ValuePlane plane, std::size_t sample);
+
+inline float fromNormalValue(float value) {
+    return 2 * value - 1;
+}
+
+} // namespace slant

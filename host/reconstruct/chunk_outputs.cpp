@@ -1,0 +1,217 @@
+#include "reconstruct/chunk_outputs.h"
+
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace slant {
+
+ChunkOutputs::ChunkOutputs(const Bins& bins, const LensMap& lens, const OutputPattern& pattern,
+                           const Chunk& chunk)
+    : bins_(bins), lens_(lens), pattern_(pattern), chunk_(chunk),
+      groups_(
+          std::span(pattern.groups).subspan(std::size_t(chunk.firstGroup), std::size_t(chunk.groupCount))),
+      lensPoints_(lensPoints(pattern)) {
+    dense.region = chunk.band.region;
+    dense.groupSize = pattern.groupSize();
+    dense.samples.resize(chunk.outputs());
+}
+
+void ChunkOutputs::makeLists() {
+    lists = listsWithin(2 * bins_.grid.radiusPx, lensBounds);
+}
+
+TileLists ChunkOutputs::listsWithin(float marginPx, std::vector<float>& bounds) const {
+    const OutputLayout& layout = chunk_.layout;
+    if (lens_.empty()) return makeTileLists(bins_, layout, groups_, marginPx);
+    bounds = lensTileBounds(lens_, pattern_, std::size_t(chunk_.firstGroup), groups_.size(), bins_.grid,
+                            layout, marginPx);
+    return makeTileLists(bins_, layout, groups_.size(), [&](const Brick& brick, std::size_t group) {
+        return tilesOfCompoundLens(brick, bins_.grid, layout, bounds, group);
+    });
+}
+
+SearchContext ChunkOutputs::contextOf(const TileLists& in, std::size_t list) const {
+    const uint first = in.start[list], last = in.start[list + 1];
+    return {bins_, std::span(in.bricks).subspan(first, last - first)};
+}
+
+std::uint64_t ChunkOutputs::pixelsInside(ivec2 corner) const {
+    return tilePixels(chunk_.layout.regionSize - corner);
+}
+
+ChunkOutputs::Slot ChunkOutputs::slotAt(ivec2 position, int output) const {
+    const OutputLayout& layout = chunk_.layout;
+    const ivec2 tile = position / kTileSize;
+    return {output * dense.region.area() + std::size_t(position.y) * layout.regionSize.x + position.x,
+            std::size_t(output >> pattern_.groupBits) * tileCount() +
+                std::size_t(tile.y) * layout.tileCount.x + tile.x,
+            layout.regionOrigin + position, output};
+}
+
+Output ChunkOutputs::at(const Slot& slot) const {
+    Output output = outputAt(slot.pixel, chunk_.firstOutput + slot.output, pattern_, chunk_.layout.seed);
+    if (!lens_.empty()) toSceneSide(lens_, output);
+    return output;
+}
+
+int ChunkOutputs::takenOf(bool sparse) const {
+    return 1 << (sparse ? pattern_.sparseBits : pattern_.groupBits);
+}
+
+int ChunkOutputs::memberAt(std::size_t group, int rank, bool sparse) const {
+    const int first = int(group) << pattern_.groupBits;
+    return first +
+           (sparse ? inOrder(pattern_.entries[std::size_t(chunk_.firstOutput + first + rank)]) : rank);
+}
+
+void ChunkOutputs::store(const Slot& slot, const Output& output, const Reconstructed& result) {
+    dense.samples[slot.sample] = result.outcome == Outcome::resolved
+                                     ? vec4(output.weight * result.rgb, output.positionCode)
+                                     : vec4(0, 0, 0, -1);
+}
+
+ListClasses ChunkOutputs::lookUpMap(const LayerMap& map, Monitor& monitor) {
+    const std::size_t tiles = std::size_t(tileCount());
+    ListClasses classes(tiles * groups_.size());
+    parallelFor(0, tiles, 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t tile = first; tile < last; ++tile) {
+            const int columns = chunk_.layout.tileCount.x;
+            const ivec2 corner = kTileSize * ivec2(int(tile) % columns, int(tile) / columns);
+            std::uint64_t served = 0;
+            for (std::size_t group = 0; group < groups_.size(); ++group) {
+                const std::size_t list = group * tiles + tile;
+                const ListClass listClass = classOfList(bins_, contextOf(lists, list).bricks, groups_[group],
+                                                        pattern_.lensScale, map.layout);
+                const std::uint64_t missed =
+                    listClass.clusters.empty() ? ~0ull : takeList(map, group, corner, listClass);
+                classes.set(list, listClass.code(), missed);
+                served += std::uint64_t(std::popcount(pixelsInside(corner) & ~missed));
+            }
+            monitor.advance(served << pattern_.groupBits);
+        }
+    });
+    return classes;
+}
+
+/// The pixels of which an output meets nothing, a bit each. Which they are must not depend on bands, so
+/// positions outside the region are looked at too.
+std::uint64_t ChunkOutputs::takeList(const LayerMap& map, std::size_t group, ivec2 corner,
+                                     const ListClass& listClass) {
+    std::uint64_t missed = 0;
+    for (int y = corner.y; y < corner.y + kTileSize; ++y)
+        for (int x = corner.x; x < corner.x + kTileSize; ++x)
+            if (!takePixel(map, group, ivec2(x, y), listClass)) missed |= 1ull << tileBit({x, y});
+    return missed != 0 && listClass.clusters.size() > kPartClusters ? ~0ull : missed;
+}
+
+bool ChunkOutputs::takePixel(const LayerMap& map, std::size_t group, ivec2 position,
+                             const ListClass& listClass) {
+    const ivec2 size = chunk_.layout.regionSize;
+    const bool inRegion = position.x < size.x && position.y < size.y;
+    const int taken = takenOf(listClass.sparse);
+    vec3 sum(0);
+    for (int rank = 0; rank < (listClass.inFocus ? pattern_.groupSize() : taken); ++rank) {
+        const int k = memberAt(group, rank, listClass.sparse);
+        const Slot slot = slotAt(position, k);
+        if (rank >= taken) {
+            if (inRegion) dense.samples[slot.sample] = vec4(0, 0, 0, kLeftOut);
+            continue;
+        }
+        const Output own = at(slot);
+        const vec2 place = listClass.inFocus ? own.xy : vec2(slot.pixel) + 0.5f;
+        const vec2 uv(lensPoints_[std::size_t(chunk_.firstOutput + k)]);
+        const std::optional<vec3> rgb = lookThrough(map, listClass.clusters, place, uv);
+        if (!rgb) return false;
+        sum += *rgb;
+        if (listClass.inFocus && inRegion) dense.samples[slot.sample] = vec4(*rgb, own.positionCode);
+    }
+    if (!listClass.inFocus && inRegion)
+        dense.samples[slotAt(position, int(group) * pattern_.groupSize()).sample] =
+            vec4(sum / float(taken), kWholePixel);
+    return true;
+}
+
+SearchCounts ChunkOutputs::search(const ListWork& work, Monitor& monitor) {
+    Counts sum;
+    std::mutex mutex;
+    const auto searchItems = [&](const std::vector<ListItem>& items, bool sparse) {
+        parallelFor(0, items.size(), 1, [&](std::size_t first, std::size_t last) {
+            Counts counts;
+            for (std::size_t i = first; i < last; ++i) {
+                const ListItem& item = items[i];
+                const std::uint64_t missed = work.missed[item.list];
+                for (int k = 0; k < kTileSize * kTileSize; ++k)
+                    if ((missed >> k & 1) != 0)
+                        searchPixel(item.group,
+                                    kTileSize * ivec2(item.tileX, item.tileY) +
+                                        ivec2(k % kTileSize, k / kTileSize),
+                                    sparse, counts);
+                monitor.advance(std::uint64_t(std::popcount(missed)) << pattern_.groupBits);
+            }
+            const std::lock_guard lock(mutex);
+            sum.visibility += counts.visibility;
+            sum.holes.insert(sum.holes.end(), counts.holes.begin(), counts.holes.end());
+        });
+    };
+    searchItems(work.whole, false);
+    searchItems(work.sparse, true);
+    return widen(sum);
+}
+
+void ChunkOutputs::searchPixel(std::size_t group, ivec2 position, bool sparse, Counts& counts) {
+    for (int rank = 0; rank < pattern_.groupSize(); ++rank) {
+        const Slot slot = slotAt(position, memberAt(group, rank, sparse));
+        if (rank < takenOf(sparse))
+            searchSlot(slot, counts);
+        else
+            dense.samples[slot.sample] = vec4(0, 0, 0, kLeftOut);
+    }
+}
+
+void ChunkOutputs::searchSlot(const Slot& slot, Counts& counts) {
+    const Output output = at(slot);
+    if (!(output.weight > 0)) return store(slot, output, {Outcome::resolved}); // the film is dark
+    const SearchContext context = contextOf(lists, slot.list);
+    Reconstructed result = reconstructNearest(context, output);
+    if (result.outcome == Outcome::needsVisibility) {
+        ++counts.visibility;
+        result = resolveVisibility(context, output, bins_.grid.radiusPx);
+    }
+    if (result.outcome == Outcome::hole) counts.holes.push_back(slot);
+    store(slot, output, result);
+}
+
+SearchCounts ChunkOutputs::redo(std::span<const uint> indices) {
+    Counts counts;
+    const int width = chunk_.layout.regionSize.x;
+    for (const uint index : indices) {
+        const int plane = int(index / dense.region.area()), pixel = int(index % dense.region.area());
+        searchSlot(slotAt(ivec2(pixel % width, pixel / width), plane), counts);
+    }
+    return widen(counts);
+}
+
+/// Outputs that found nothing within 2 R look further, with lists made for it.
+SearchCounts ChunkOutputs::widen(Counts& counts) {
+    SearchCounts result;
+    result.visibility = counts.visibility;
+    result.widened = counts.holes.size();
+    float radius = bins_.grid.radiusPx;
+    for (int step = 0; step < kWidenings && !counts.holes.empty(); ++step) {
+        radius *= 2;
+        std::vector<float> bounds;
+        const TileLists wide = listsWithin(2 * radius, bounds);
+        std::erase_if(counts.holes, [&](const Slot& slot) {
+            const Output output = at(slot);
+            const Reconstructed resolved = resolveVisibility(contextOf(wide, slot.list), output, radius);
+            store(slot, output, resolved);
+            return resolved.outcome == Outcome::resolved;
+        });
+    }
+    result.holes = counts.holes.size();
+    return result;
+}
+
+} // namespace slant

@@ -1,0 +1,92 @@
+// What a device does of a reconstruction. The order of the stages stands once, in prepared_field.cpp; an
+// engine makes them, on the CPU (cpu_engine.h) or in compute shaders (compute/vulkan_engine.h), with the same
+// words.
+#pragma once
+#include "lightfield/scene_side.h"
+#include "reconstruct/grid.h"
+#include "reconstruct/list_work.h"
+#include "reconstruct/options.h"
+#include "reconstruct/report.h"
+#include "shared/layer_map.h"
+#include "shared/window.h"
+
+#include <limits>
+
+namespace slant {
+
+/// What stages leave for comparison.
+enum class Intermediate {
+    bricks,
+    cells,
+    positions,
+    values,
+    layerMap,
+    lensBounds,
+    listStart,
+    listBricks,
+    listClasses,
+    missedPixels,
+    windowPositions,
+    windowValues,
+    dense,
+    film,
+};
+/// As messages name it.
+const char* nameOf(Intermediate intermediate);
+
+/// What stays as it is from chunk to chunk of a picture; the engine keeps it.
+struct PictureSetup {
+    Rect frame;
+    FilterTable filter;
+    OutputPattern pattern; ///< of `box`: a single output
+    std::uint64_t seed = 0;
+    bool observed = false; ///< intermediates are wanted: what nobody reads is defined, too
+};
+
+/// Of one light field. Stages are called in the order of this list.
+class Engine {
+public:
+    virtual ~Engine() = default;
+
+    /// Dense samples that a buffer holds.
+    virtual std::uint64_t maxDenseSamples() const { return std::numeric_limits<std::uint64_t>::max(); }
+
+    // Once for the field, if its method searches bins.
+    virtual void bin(const BinScope& scope) = 0;
+
+    // For each picture.
+    /// The bins of samples whose slopes are so much greater than traced.
+    virtual void refocus(float slopeShift) = 0;
+    /// Values for what follows: of the binned samples, or of `window` and `box`.
+    virtual void takeValues(ValuePlane plane) = 0;
+    virtual const GridLayout& grid() const = 0;
+    /// An empty film.
+    virtual void begin(PictureSetup setup) = 0;
+    virtual void beginWindow(const WindowSearch& search) = 0;
+
+    // For each band.
+    virtual void makeMap(const MapLayout& layout) = 0;
+
+    // For each chunk: lists, classes and outputs from the layer map, outputs from the bins; or outputs from
+    // windows; or the input samples. They fill the dense samples. `monitor` advances by outputs.
+    virtual void makeLists(const Chunk& chunk) = 0;
+    virtual ListClasses lookUpMap(const Chunk& chunk, Monitor& monitor) = 0;
+    virtual SearchCounts search(const Chunk& chunk, const ListWork& work, Monitor& monitor) = 0;
+    virtual SearchCounts lookThroughWindows(const Chunk& chunk, Monitor& monitor) = 0;
+    virtual void takeInput(const Band& band) = 0;
+
+    /// Adds the dense samples to the film: `planes` of them per pixel, those of a lens group after one
+    /// another.
+    virtual void addToFilm(const Band& band, int planes, int groupSize) = 0;
+    /// Sums of weight * rgb and of weight, for each pixel of the frame.
+    virtual std::vector<vec4> film() const = 0;
+
+    /// The words that a stage has left of the band or chunk before it is overwritten.
+    virtual std::vector<uint> words(Intermediate intermediate) const = 0;
+    /// Largest memory that stages took since begin().
+    virtual std::uint64_t peakBytes() const = 0;
+    /// Times of the device's passes since the last call, if it has any.
+    virtual void addPassTimes(ReconstructReport&) {}
+};
+
+} // namespace slant

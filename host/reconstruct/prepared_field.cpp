@@ -1,0 +1,222 @@
+#include "reconstruct/prepared_field.h"
+
+#include "base/error.h"
+#include "reconstruct/film_buffer.h"
+#include "reconstruct/lens_tiles.h"
+#include "reconstruct/map_lookup.h"
+#include "reconstruct/window.h"
+
+#include <array>
+
+namespace slant {
+namespace {
+
+/// One picture: what its stages share.
+class Picture {
+public:
+    Picture(const SceneSideSamples& samples, const ReconstructOptions& options, const LensView& view,
+            Engine& engine, Monitor& monitor, ReconstructReport& report, IntermediateObserver* observer)
+        : field_(samples.field()), options_(options), view_(view), engine_(engine), monitor_(monitor),
+          report_(report), observer_(observer), filter_(makeFilterTable(options.filter)),
+          maxSamples_(std::min(maxDenseSamples(options), engine.maxDenseSamples())) {}
+
+    const FilterTable& filter() const { return filter_; }
+
+    void fromInput() {
+        const int planes = int(sampleCounts(field_).max);
+        begin({});
+        StageTimer timer(report_, "pixel_filter", "samples");
+        timer.items = field_.samples.size();
+        for (const Band& band : planBands(field_.frame, filter_, planes, maxSamples_)) {
+            engine_.takeInput(band);
+            observe(Intermediate::dense);
+            engine_.addToFilm(band, planes, 1);
+        }
+        timer.bytes = engine_.peakBytes();
+    }
+
+    void fromWindows() {
+        const OutputPattern& pattern = begin(patternFor(0));
+        engine_.beginWindow(windowSearch(field_, options_.window));
+        observe(Intermediate::windowPositions);
+        observe(Intermediate::windowValues);
+        const Plan plan = planOutputs(field_.frame, filter_, pattern, maxSamples_);
+        forEachChunk(
+            plan, pattern, [](const Band&) {},
+            [&](const Chunk& chunk) {
+                report_.search.add(engine_.lookThroughWindows(chunk, monitor_));
+                report_.outputs += chunk.outputs();
+                return chunk.outputs();
+            });
+        if (report_.search.holes > 0)
+            monitor_.warn(fmt::format("{} of {} outputs are black: nothing in their windows",
+                                      report_.search.holes, report_.outputs));
+    }
+
+    void fromBins(bool usesMap) {
+        for (const Intermediate i :
+             {Intermediate::bricks, Intermediate::cells, Intermediate::positions, Intermediate::values})
+            observe(i);
+        const GridLayout& grid = engine_.grid();
+        const OutputPattern& pattern = begin(patternFor(largestSlope(grid)));
+        const int texels = mapTexelsPerPixel(field_);
+        const float reach = mapReach(grid, pattern.lensScale);
+        const int maxRows = usesMap ? mapRows(field_.frame, texels, reach, options_.memoryBytes / 2)
+                                    : std::numeric_limits<int>::max();
+        const Plan plan = planOutputs(field_.frame, filter_, pattern, maxSamples_, maxRows);
+        const auto beginBand = [&](const Band& band) {
+            if (usesMap) makeMap(chooseMap(grid, band.region, texels, reach, spreadPerPx(pattern)));
+        };
+        forEachChunk(plan, pattern, beginBand, [&](const Chunk& chunk) { return search(chunk, usesMap); });
+    }
+
+private:
+    OutputPattern patternFor(float slopePx) const {
+        return makeOutputPattern(options_.outputsPerPixel, slopePx, view_.apertureScale,
+                                 view_.apertureOf(field_));
+    }
+
+    const OutputPattern& begin(OutputPattern pattern) {
+        pattern_ = std::move(pattern);
+        engine_.begin({field_.frame, filter_, pattern_, options_.seed, observer_ != nullptr});
+        return pattern_;
+    }
+
+    void makeMap(const MapLayout& layout) {
+        StageTimer timer(report_, "layer_map", "texels");
+        engine_.makeMap(layout);
+        timer.items = levelBegin(layout, layout.levels);
+        timer.bytes = engine_.peakBytes();
+        observe(Intermediate::layerMap);
+    }
+
+    /// Returns how many outputs were made.
+    std::uint64_t search(const Chunk& chunk, bool usesMap) {
+        engine_.makeLists(chunk);
+        if (!field_.lensMap.empty()) observe(Intermediate::lensBounds);
+        observe(Intermediate::listStart);
+        observe(Intermediate::listBricks);
+        const auto tiles = std::size_t(chunk.layout.tileCount.x) * std::size_t(chunk.layout.tileCount.y);
+        ListClasses classes(tiles * std::size_t(chunk.groupCount));
+        if (usesMap) {
+            classes = engine_.lookUpMap(chunk, monitor_);
+            observe(Intermediate::listClasses);
+            observe(Intermediate::missedPixels);
+            addMapShare(report_.mapShare, field_.frame, chunk.band, classes, pattern_.groups.size());
+        }
+        const ListWork work = listWork(classes, chunk, pattern_);
+        report_.search.add(engine_.search(chunk, work, monitor_));
+        report_.fromMap += work.fromMap;
+        report_.outputs += work.outputs;
+        return work.outputs;
+    }
+
+    /// Bands, and in each the chunks that `make` fills with outputs; it returns how many it made.
+    template <typename BeginBand, typename Make>
+    void forEachChunk(const Plan& plan, const OutputPattern& pattern, const BeginBand& beginBand,
+                      const Make& make) {
+        monitor_.beginStage("reconstruct", plan.outputs, "outputs");
+        for (const Band& band : plan.bands) {
+            beginBand(band);
+            for (const Chunk& chunk : chunksOf(plan, band, pattern, options_.seed)) {
+                {
+                    StageTimer timer(report_, "reconstruct", "outputs");
+                    timer.items = make(chunk);
+                    timer.bytes = engine_.peakBytes();
+                    observe(Intermediate::dense);
+                }
+                StageTimer timer(report_, "pixel_filter", "outputs");
+                timer.items = chunk.outputs();
+                engine_.addToFilm(band, chunk.planes, pattern.groupSize());
+            }
+        }
+        monitor_.endStage();
+    }
+
+    void observe(Intermediate intermediate) const {
+        if (observer_) observer_->receive(nameOf(intermediate), engine_.words(intermediate));
+    }
+
+    const LightField& field_;
+    const ReconstructOptions& options_;
+    const LensView& view_;
+    Engine& engine_;
+    Monitor& monitor_;
+    ReconstructReport& report_;
+    IntermediateObserver* observer_;
+    FilterTable filter_;
+    std::uint64_t maxSamples_;
+    OutputPattern pattern_;
+};
+
+} // namespace
+
+Image PreparedField::picture(const LensView& view, ValuePlane plane, Monitor& monitor,
+                             ReconstructReport& report, IntermediateObserver* observer) {
+    checkView(options_, view);
+    Picture picture(samples_, options_, view, *engine_, monitor, report, observer);
+    const MethodTraits& traits = traitsOf(options_.method);
+    if (traits.source == DenseSource::bins)
+        bin(view, plane, picture.filter(), report);
+    else
+        engine_->takeValues(plane);
+    switch (traits.source) {
+    case DenseSource::input:
+        picture.fromInput();
+        break;
+    case DenseSource::window:
+        picture.fromWindows();
+        break;
+    case DenseSource::bins:
+        // Through a compound lens every output has its own metric and its own part of a distorted picture:
+        // there is no layer map for that.
+        picture.fromBins(traits.usesLayerMap && samples_.field().lensMap.empty());
+        break;
+    }
+    engine_->addPassTimes(report);
+    if (observer) observer->receive(nameOf(Intermediate::film), engine_->words(Intermediate::film));
+    return filmImage(samples_.field().frame, engine_->film(), report.emptyPixels);
+}
+
+/// Stages "bin", unless it is done, and "refocus".
+void PreparedField::bin(const LensView& view, ValuePlane plane, const FilterTable& filter,
+                        ReconstructReport& report) {
+    if (binnedPlane_ != plane) {
+        StageTimer timer(report, "bin", "samples");
+        timer.items = samples_.samples().size();
+        if (!binnedPlane_) engine_->bin({searchRegionOf(samples_, filter), options_.anyFocus});
+        engine_->takeValues(plane);
+        binnedPlane_ = plane;
+        timer.bytes = engine_->peakBytes();
+    }
+    if (view.slopeShift == 0) return engine_->refocus(0);
+    StageTimer timer(report, "refocus", "samples");
+    timer.items = samples_.samples().size();
+    engine_->refocus(view.slopeShift);
+}
+
+void checkView(const ReconstructOptions& options, const LensView& view) {
+    const MethodTraits& traits = traitsOf(options.method);
+    if (view.slopeShift != 0 && !traits.refocuses())
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("method {} looks for samples in their own pixels, which another focus moves them out "
+                        "of; choose another",
+                        traits.name));
+    if (view.slopeShift != 0 && !options.anyFocus)
+        throw Error(ErrorCode::usage,
+                    fmt::format("method {} was prepared for the traced focus only", traits.name));
+    if (!view.isTracedLens() && !traits.makesOutputs())
+        throw Error(ErrorCode::usage,
+                    fmt::format("method {} takes the traced lens only; choose another", traits.name));
+}
+
+const char* nameOf(Intermediate intermediate) {
+    constexpr std::array kNames{"bin.bricks",   "bin.cells",  "bin.positions",    "bin.values",
+                                "layer_map",    "lists.lens", "lists.start",      "lists.bricks",
+                                "list_classes", "missed",     "window.positions", "window.values",
+                                "dense",        "film"};
+    return kNames.at(std::size_t(intermediate));
+}
+
+} // namespace slant

@@ -1,0 +1,34 @@
+#include "render/render.h"
+
+#include "reconstruct/plan.h"
+
+namespace slant {
+
+TracedField traceField(const Tracer& tracer, const Scene& scene, const SampleOptions& options,
+                       Monitor& monitor) {
+    TracedField traced{traceLightField(tracer, scene, options, monitor), {}};
+    traced.defects = sanitize(traced.field);
+    return traced;
+}
+
+Rendering render(const Scene& scene, const RenderOptions& options, Backend& backend, Monitor& monitor) {
+    ReconstructOptions reconstruction = options.reconstruction;
+    reconstruction.filter = scene.filter;
+    checkBudget(scene.film.crop, options.sampling.samplesPerPixel, reconstruction);
+    SampleOptions sampling = options.sampling;
+    sampling.guides = options.auxiliary;
+
+    Rendering result;
+    {
+        const Tracer tracer(scene, monitor);
+        result.traced = traceField(tracer, scene, sampling, monitor);
+    }
+    FieldPictures pictures(backend, result.traced.field, reconstruction, options.compareWithCpu);
+    result.image = pictures.colours({}, monitor, result.report);
+    if (options.auxiliary) pictures.addAuxiliary(result.image, {}, monitor, result.report);
+    result.image.displayWindow = {0, 0, scene.film.xResolution, scene.film.yResolution};
+    result.agreements = pictures.takeAgreements();
+    return result;
+}
+
+} // namespace slant

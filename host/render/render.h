@@ -1,0 +1,36 @@
+// From a scene to its picture in one call.
+#pragma once
+#include "render/field_pictures.h"
+#include "trace/sample_pass.h"
+
+namespace slant {
+
+/// A light field as reconstruction takes it.
+struct TracedField {
+    LightField field; ///< sanitized
+    FieldDefects defects;
+};
+
+/// Throws what traceLightField throws.
+TracedField traceField(const Tracer& tracer, const Scene& scene, const SampleOptions& options,
+                       Monitor& monitor);
+
+struct RenderOptions {
+    SampleOptions sampling;            ///< with guides if `auxiliary`
+    ReconstructOptions reconstruction; ///< the filter is the scene's
+    bool auxiliary = false;            ///< with the channels of render/auxiliary.h
+    bool compareWithCpu = false;       ///< see FieldPictures
+};
+
+struct Rendering {
+    Image image; ///< of scene.film.crop, channels R, G, B (and auxiliary ones)
+    TracedField traced;
+    ReconstructReport report;
+    std::vector<Agreement> agreements;
+};
+
+/// Traces, reconstructs and filters the picture of a scene. Throws Error(resources) for a memory budget that
+/// is too small, before tracing; and what Tracer, traceLightField and FieldPictures throw.
+Rendering render(const Scene& scene, const RenderOptions& options, Backend& backend, Monitor& monitor);
+
+} // namespace slant
