@@ -5,8 +5,13 @@ include(CMakePackageConfigHelpers)
 
 install(TARGETS slant)
 install(TARGETS slant_lib EXPORT slantTargets)
-install(DIRECTORY host/ DESTINATION include/slant FILES_MATCHING PATTERN "*.h" PATTERN "commands" EXCLUDE)
-install(DIRECTORY shaders/ DESTINATION include/slant FILES_MATCHING REGEX "/shared/[^/]*\\.h$" PATTERN "lib" EXCLUDE)
+# What users of the library include, and what these headers need: <slant/...>.
+install(CODE "
+    set(SOURCE \"${PROJECT_SOURCE_DIR}\")
+    set(DESTINATION \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}/slant\")
+    set(HEADERS render/render.h render/brute_force.h scene/read_scene.h lightfield/field_file.h lightfield/refocus.h
+        image/exr.h image/png.h image/metrics.h image/flip.h)
+    include(\"${PROJECT_SOURCE_DIR}/cmake/InstallHeaders.cmake\")")
 install(EXPORT slantTargets NAMESPACE slant:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/slant)
 configure_package_config_file(cmake/slantConfig.cmake.in "${PROJECT_BINARY_DIR}/slantConfig.cmake"
     INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/slant)

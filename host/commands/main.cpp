@@ -5,6 +5,7 @@
 #include "commands/commands.h"
 #include "commands/interrupt.h"
 #include "commands/terminal_monitor.h"
+#include "version.h"
 
 #include <cstdio>
 #include <new>

@@ -35,23 +35,23 @@ ReconstructOptions reconstructOptions(const CommonOptions& common, const PixelFi
     options.seed = common.seed;
     options.memoryBytes = common.memoryBytes;
     // So that the CPU cuts a picture into the chunks that the device can hold.
-    if (backend.device)
-        options.memoryBytes =
-            std::min(options.memoryBytes, 2 * sizeof(vec4) * backend.device->limits().texelBufferElements);
+    constexpr std::uint64_t kBytesPerSample = 2 * sizeof(glm::vec4); // see maxDenseSamples
+    if (options.memoryBytes / kBytesPerSample > backend.maxDenseSamples())
+        options.memoryBytes = kBytesPerSample * backend.maxDenseSamples();
     return options;
 }
 
 void printAgreements(const std::vector<Agreement>& agreements, const Backend& backend) {
     for (const Agreement& agreement : agreements)
         fmt::print("{} intermediates, {} words: {} and cpu agree to the bit\n", agreement.intermediates,
-                   agreement.words, backend.name);
+                   agreement.words, backend.name());
 }
 
 void addDetails(nlohmann::ordered_json& details, const CommonOptions& common, const LightField& field,
                 const Backend& backend, const ReconstructReport& report) {
     const MethodTraits& traits = traitsOf(common.method);
     details.update({{"method", nameOf(common.method)},
-                    {"device", backend.name},
+                    {"device", backend.name()},
                     {"spp", sppOf(field)},
                     {"seed", common.seed},
                     {"c1", field.slopeModel.c1},

@@ -5,6 +5,7 @@
 #include "commands/picture_job.h"
 #include "commands/stats_file.h"
 #include "lightfield/field_file.h"
+#include "render/render.h"
 #include "trace/sample_pass.h"
 
 #include <memory>
@@ -26,23 +27,6 @@ void checkOptions(const FieldOptions& options) {
         if (!path.empty()) checkWritable(path);
 }
 
-FieldMetadata detailsOf(const FieldOptions& options, const Scene& scene, const Camera& camera) {
-    FieldMetadata details;
-    details.film = {0, 0, scene.film.xResolution, scene.film.yResolution};
-    details.filter = scene.filter;
-    if (const CompoundLens* lens = camera.compoundLens()) {
-        constexpr double kMillimetres = 1000; // a metre
-        details.lensRadius = float(lens->lens().entrancePupil().radius / kMillimetres);
-        details.focalLength = float(lens->lens().focalLength() / kMillimetres);
-        details.unit = "m";
-    } else {
-        details.lensRadius = scene.camera.lensRadius;
-    }
-    details.source = options.scene;
-    details.seed = options.common.seed;
-    return details;
-}
-
 void runSample(const FieldOptions& options) {
     const Stopwatch watch;
     const CommonOptions& common = options.common;
@@ -57,7 +41,7 @@ void runSample(const FieldOptions& options) {
     sampling.guides = options.auxiliary;
     const LightField field = traceLightField(tracer, scene, sampling, monitor);
 
-    writeField(options.output, field, detailsOf(options, scene, tracer.camera()), monitor);
+    writeField(options.output, field, metadataOf(scene, tracer.camera(), options.scene, common.seed), monitor);
     if (!common.statsPath.empty())
         writeStats(common.statsPath, monitor.stages(), watch.seconds(),
                    {{"scene", options.scene},

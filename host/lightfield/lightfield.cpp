@@ -1,5 +1,6 @@
 #include "lightfield/lightfield.h"
 
+#include "base/error.h"
 #include "base/parallel.h"
 
 #include <algorithm>
@@ -105,6 +106,12 @@ bool isThinLens(const LightField& field) {
 }
 
 FieldDefects sanitize(LightField& field) {
+    const auto fits = [&](std::size_t size) { return size == field.samples.size(); };
+    if (!fits(field.radiance.size()) || (field.hasGuides() && !fits(field.albedo.size())) ||
+        field.normal.size() != field.albedo.size())
+        throw Error(ErrorCode::usage, fmt::format("{} samples have {} radiances, {} albedos and {} normals",
+                                                  field.samples.size(), field.radiance.size(),
+                                                  field.albedo.size(), field.normal.size()));
     FieldDefects sum;
     std::mutex mutex;
     parallelFor(0, field.samples.size(), 1 << 14, [&](std::size_t first, std::size_t last) {

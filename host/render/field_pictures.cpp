@@ -27,9 +27,11 @@ std::string describe(const IntermediateDifference& d, const std::vector<uint>& e
 
 FieldPictures::FieldPictures(Backend& backend, const LightField& field, const ReconstructOptions& options,
                              bool compareWithCpu)
-    : field_(field), prepared_(backend.reconstructor->prepare(field, options)) {
+    : field_(field), prepared_(backend.reconstructor().prepare(field, options)) {
     if (compareWithCpu) onCpu_ = CpuReconstructor().prepare(field, options);
 }
+
+FieldPictures::~FieldPictures() = default;
 
 Image FieldPictures::colours(const LensView& view, Monitor& monitor, ReconstructReport& report) {
     return picture(view, ValuePlane::radiance, monitor, report);

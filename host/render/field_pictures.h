@@ -1,12 +1,19 @@
 // The pictures of a light field: colours and auxiliary channels, compared with the CPU's where that is asked
 // for.
 #pragma once
+#include "image/image.h"
+#include "lightfield/lens_view.h"
+#include "lightfield/value_plane.h"
+#include "reconstruct/options.h"
+#include "reconstruct/report.h"
 #include "render/backend.h"
 
 #include <memory>
 #include <vector>
 
 namespace slant {
+
+class PreparedField;
 
 /// Two runs of one picture that agreed to the bit.
 struct Agreement {
@@ -18,7 +25,8 @@ public:
     /// The field must be sanitized; both it and the backend must live on. With compareWithCpu the CPU runs
     /// beside the backend, and the first intermediate that differs is an Error(outOfBounds).
     FieldPictures(Backend& backend, const LightField& field, const ReconstructOptions& options,
-                  bool compareWithCpu);
+                  bool compareWithCpu = false);
+    ~FieldPictures();
 
     /// R, G, B. Throws what PreparedField::picture throws.
     Image colours(const LensView& view, Monitor& monitor, ReconstructReport& report);

@@ -1,6 +1,7 @@
 #include "render/render.h"
 
 #include "reconstruct/plan.h"
+#include "trace/sample_pass.h"
 
 namespace slant {
 
@@ -9,6 +10,23 @@ TracedField traceField(const Tracer& tracer, const Scene& scene, const SampleOpt
     TracedField traced{traceLightField(tracer, scene, options, monitor), {}};
     traced.defects = sanitize(traced.field);
     return traced;
+}
+
+FieldMetadata metadataOf(const Scene& scene, const Camera& camera, std::string source, std::uint64_t seed) {
+    FieldMetadata metadata;
+    metadata.film = {0, 0, scene.film.xResolution, scene.film.yResolution};
+    metadata.filter = scene.filter;
+    if (const CompoundLens* lens = camera.compoundLens()) {
+        constexpr double kMillimetres = 1000; // per metre
+        metadata.lensRadius = float(lens->lens().entrancePupil().radius / kMillimetres);
+        metadata.focalLength = float(lens->lens().focalLength() / kMillimetres);
+        metadata.unit = std::string("m");
+    } else {
+        metadata.lensRadius = scene.camera.lensRadius;
+    }
+    metadata.source = std::move(source);
+    metadata.seed = seed;
+    return metadata;
 }
 
 Rendering render(const Scene& scene, const RenderOptions& options, Backend& backend, Monitor& monitor) {
@@ -22,6 +40,7 @@ Rendering render(const Scene& scene, const RenderOptions& options, Backend& back
     {
         const Tracer tracer(scene, monitor);
         result.traced = traceField(tracer, scene, sampling, monitor);
+        result.metadata = metadataOf(scene, tracer.camera(), scene.path, sampling.seed);
     }
     FieldPictures pictures(backend, result.traced.field, reconstruction, options.compareWithCpu);
     result.image = pictures.colours({}, monitor, result.report);

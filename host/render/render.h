@@ -1,15 +1,23 @@
 // From a scene to its picture in one call.
 #pragma once
+#include "base/monitor.h"
+#include "lightfield/field_metadata.h"
 #include "render/field_pictures.h"
-#include "trace/sample_pass.h"
+#include "trace/sample_options.h"
 
 namespace slant {
+
+class Camera;
+class Tracer;
 
 /// A light field as reconstruction takes it.
 struct TracedField {
     LightField field; ///< sanitized
     FieldDefects defects;
 };
+
+/// What a file says of the light field of a scene; `source` names the scene.
+FieldMetadata metadataOf(const Scene& scene, const Camera& camera, std::string source, std::uint64_t seed);
 
 /// Throws what traceLightField throws.
 TracedField traceField(const Tracer& tracer, const Scene& scene, const SampleOptions& options,
@@ -25,6 +33,7 @@ struct RenderOptions {
 struct Rendering {
     Image image; ///< of scene.film.crop, channels R, G, B (and auxiliary ones)
     TracedField traced;
+    FieldMetadata metadata; ///< of the traced field
     ReconstructReport report;
     std::vector<Agreement> agreements;
 };

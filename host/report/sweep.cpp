@@ -7,6 +7,7 @@
 #include "image/heat_map.h"
 #include "image/metrics.h"
 #include "image/png.h"
+#include "reconstruct/prepared_field.h"
 #include "render/brute_force.h"
 #include "render/render.h"
 #include "report/machine.h"
@@ -66,8 +67,8 @@ public:
         std::set<std::string> deviceNames;
         for (const std::string& device : options.devices) {
             backends_.push_back(std::make_unique<Backend>(device, options.threads));
-            if (!deviceNames.insert(backends_.back()->name).second)
-                throw Error(ErrorCode::usage, fmt::format("two devices are '{}'", backends_.back()->name));
+            if (!deviceNames.insert(backends_.back()->name()).second)
+                throw Error(ErrorCode::usage, fmt::format("two devices are '{}'", backends_.back()->name()));
         }
     }
 
@@ -144,7 +145,7 @@ private:
         beginShare(scene, std::uint64_t(spp), options_.repeat + 1);
         forEachSetting([&](const Backend& backend, Method method, int outputs) {
             Point point = newPoint(scene, content, slant::nameOf(method), spp, outputsOf(method, outputs),
-                                   backend.name);
+                                   backend.name());
             if (takeKnown(point)) return;
             if (field.samples.empty())
                 trace = timeRuns(options_.repeat, [&] {
@@ -161,7 +162,7 @@ private:
             Image image;
             const Timing reconstruct = timeRuns(options_.repeat, [&] {
                 ReconstructReport report;
-                image = backend.reconstructor->reconstruct(field, reconstruction, work_, report, nullptr);
+                image = backend.reconstructor().reconstruct(field, reconstruction, work_, report, nullptr);
             });
             point.traceSeconds = trace.seconds;
             point.reconstructSeconds = reconstruct.seconds;
@@ -215,7 +216,7 @@ private:
         const auto& samples = options_.samples;
         const bool hasUsual = std::ranges::find(samples, kPicturedSpp) != samples.end();
         return point.spp == (hasUsual ? kPicturedSpp : samples[samples.size() / 2]) &&
-               point.device == backends_.front()->name &&
+               point.device == backends_.front()->name() &&
                (point.outputs == 0 || point.outputs == options_.outputs.back());
     }
 

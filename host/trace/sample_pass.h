@@ -1,17 +1,9 @@
 // The sample pass: the light field of a scene's frame and of as much overscan around it as its blur needs.
 #pragma once
+#include "trace/sample_options.h"
 #include "trace/tracer.h"
 
-#include <cstdint>
-
 namespace slant {
-
-struct SampleOptions {
-    int samplesPerPixel = 8;
-    std::uint64_t seed = 0;
-    bool guides = false;                    ///< record albedo and normal too
-    std::uint64_t memoryBytes = 4ull << 30; ///< budget of the light field
-};
 
 /// Traces Film::crop, then an overscan on each side as wide as any seen sample's trajectory reaches beyond
 /// it, plus the reconstruction radius; at most half of the film's longer side (then it warns). Throws

@@ -43,6 +43,7 @@ std::string objection(const std::string& room, const std::string& path, bool quo
             return fmt::format("{} is for {}/ alone", library, only);
     if (!quoted || path.starts_with("shared/")) return "";
     if (path == "shaders_embedded.h") return room == "compute" ? "" : "shaders are for compute/ alone";
+    if (path == "version.h") return room == "commands" ? "" : "the version is for commands/ alone";
     const std::string other = path.substr(0, path.find('/'));
     if (!rank(other)) return "not the path of a room's header";
     if (*rank(other) > *rank(room)) return fmt::format("{} is above {}", other, room);

@@ -1,10 +1,12 @@
 // Small scenes built by hand, for tests of the tracer.
 #pragma once
 #include "scene/scene.h"
+#include "trace/interaction.h"
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
+#include <random>
 
 namespace slant::testing {
 
@@ -76,5 +78,20 @@ inline Mesh ballMesh(int rings, Mesh::Kind kind) {
         }
     return mesh;
 }
+
+struct RandomRays {
+    std::mt19937 random;
+    std::normal_distribution<float> normal;
+
+    explicit RandomRays(unsigned seed) : random(seed) {}
+    glm::vec3 direction() {
+        return glm::normalize(glm::vec3(normal(random), normal(random), normal(random)));
+    }
+    /// From a sphere of that radius towards a point within the unit ball or so.
+    Ray inwards(float radius) {
+        glm::vec3 origin = radius * direction();
+        return {origin, glm::normalize(0.8f * direction() - origin)};
+    }
+};
 
 } // namespace slant::testing
