@@ -1,7 +1,8 @@
 #version 460
-// Records in the order of their sorted keys, with the weights of their visibility, and 1 where a new brick begins.
+// Records in the order of their sorted keys, with the weights of their visibility, and 1 where a new brick
+// begins.
 #extension GL_GOOGLE_include_directive : require
-#include "lib/invocation.glsl"
+#include "resources/invocation.glsl"
 #include "lib/occlusion.glsl"
 
 layout(local_size_x = 64) in;

@@ -2,7 +2,7 @@
 // Pinhole position, radiance, own radius and sort key of each uploaded sample.
 #extension GL_GOOGLE_include_directive : require
 #include "lib/grid.glsl"
-#include "lib/invocation.glsl"
+#include "resources/invocation.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform textureBuffer samples; // three texels a sample: LightFieldSample
@@ -23,7 +23,7 @@ void main() {
     const vec4 depth = texelFetch(samples, int(3u * i + 1u));
     const vec4 radiance = texelFetch(samples, int(3u * i + 2u));
     const float slope = depth.z;
-    const vec2 p = place.xy - slope * place.zw;
+    const vec2 p = pinholeOf(place.xy, place.zw, slope);
     const int index = int(push.firstSample + i);
     const bool kept = reaches(p, slope, vec2(push.regionMin), vec2(push.regionMax), push.marginPx);
     imageStore(positions, index, vec4(p, slope, radiance.w));

@@ -7,7 +7,7 @@
 
 namespace slant {
 
-/// kCompoundLens of lib/output_pattern.glsl.
+/// kCompoundLens of resources/compound_lens.glsl.
 inline std::array<std::uint32_t, 1> compoundLens(const LensMap& lens) {
     return {lens.empty() ? 0u : 1u};
 }
