@@ -37,8 +37,11 @@ void keepCandidate(int place, WindowCandidate candidate) {
     records[place] = candidate.record;
 }
 
-WindowCandidate candidateAt(uint record, Output o);
-WindowCandidate keptCandidate(int place, Output o) { return candidateAt(records[place], o); }
+vec2 offsetOf(vec4 position, Output o);
+WindowCandidate keptCandidate(int place, Output o) {
+    const vec2 offset = offsetOf(positionAt(records[place]), o);
+    return WindowCandidate(offset, offset.x * offset.x + offset.y * offset.y, slopes[place], records[place]);
+}
 
 void sortCandidates(int count) {
     for (int i = 1; i < count; ++i) {

@@ -44,7 +44,7 @@ KERNEL uint classOf(uint begin, uint end, vec4 lensBox, float lensScale) {
     float finest = 1.0f; // own radius, over R
     const uint last = min(end, begin + uint(kMaxLoopIterations));
     for (uint entry = begin; entry < last; ++entry) {
-        const Brick brick = listedBrick(entry);
+        IN(Brick) brick = listedBrick(entry);
         finest = min(finest, widestRadius(brick));
         if (entry > begin && brick.slopeMin > found.slopeMax + mapLayout.surfaceGap) {
             close(found, lensRadius, lensWidth);

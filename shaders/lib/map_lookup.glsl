@@ -36,7 +36,7 @@ KERNEL bool fits(IN(Lookup) lookup, float slope) { return slope >= lookup.low &&
 KERNEL bool layerAt(IN(Lookup) lookup, ivec2 place, INOUT(uvec2) words, INOUT(float) slope) {
     const ivec2 inMap = place - lookup.origin;
     const bool inside = uint(inMap.x) < uint(lookup.size.x) && uint(inMap.y) < uint(lookup.size.y);
-    const uvec4 texel = mapTexelAt(inside ? lookup.begin + inMap.y * lookup.size.x + inMap.x : 0);
+    IN(uvec4) texel = mapTexelAt(inside ? lookup.begin + inMap.y * lookup.size.x + inMap.x : 0);
     const float front = unpackSlope(texel.y, lookup.code), back = unpackSlope(texel.w, lookup.code);
     const bool isFront = fits(lookup, front), found = inside && (isFront || fits(lookup, back));
     if (found) {
@@ -95,7 +95,7 @@ KERNEL bool look(vec2 x, vec2 uv, int clusterBegin, int clusterCount, INOUT(vec3
     vec3 rgb = vec3(0.0f), last = vec3(0.0f);
     float transmittance = 1.0f;
     for (int i = 0; i < clusterCount; ++i) {
-        const Cluster cluster = clusterAt(clusterBegin + i);
+        IN(Cluster) cluster = clusterAt(clusterBegin + i);
         const Lookup lookup = lookUp(cluster);
         const float slope = settle(lookup, cluster, x, uv);
         const vec4 layer = layerAround(lookup, pinholeOf(x, uv, slope) * lookup.scale);

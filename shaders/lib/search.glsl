@@ -21,7 +21,7 @@ KERNEL int forEachCandidate(IN(GridLayout) grid, IN(Output) o, float radius, flo
     const vec2 center = (o.xy - grid.origin) * grid.invCell, shear = o.uv * grid.invCell;
     int steps = 0;
     for (uint entry = listBegin; entry < listEnd && sweep.running; ++entry) {
-        const Brick brick = listedBrick(entry);
+        IN(Brick) brick = listedBrick(entry);
         const float ownRadius = radius * max(widestRadius(brick), 1.0f / maxRadiusRatio);
         const vec2 reach = ownRadius * grid.invCell * o.extent;
         const Motion motion = motionAt(shear, brick.slopeMin, brick.slopeMax);
@@ -39,13 +39,13 @@ KERNEL int forEachCandidate(IN(GridLayout) grid, IN(Output) o, float radius, flo
             steps += int(end - begin) + 1;
             if (steps > kMaxSteps) return steps;
             for (uint record = begin; record < end && sweep.running; ++record) {
-                const vec4 position = positionAt(record);
+                IN(vec4) position = positionAt(record);
                 const Trajectory trajectory = {vec2(position), position.z};
                 vec2 offset = seenFrom(trajectory, o.uv) - o.xy;
                 if (o.onSceneSide) offset = onFilm(o, offset);
                 const float distance2 = offset.x * offset.x + offset.y * offset.y;
                 if (!(distance2 < ownRadius * ownRadius)) continue;
-                const vec4 radiance = radianceAt(record);
+                IN(vec4) radiance = radianceAt(record);
                 const float radiusRatio = min(radiance.w, maxRadiusRatio);
                 const float scaled2 = distance2 * (radiusRatio * radiusRatio);
                 if (!(scaled2 < radius * radius)) continue;

@@ -24,14 +24,11 @@ KERNEL WindowSurface noWindowSurface() {
     return surface;
 }
 
-KERNEL WindowCandidate candidateAt(uint record, IN(Output) o) {
-    const vec4 position = positionAt(record);
+KERNEL vec2 offsetOf(IN(vec4) position, IN(Output) o) {
     const Trajectory trajectory = {vec2(position), position.z};
     vec2 offset = seenFrom(trajectory, o.uv) - o.xy;
     if (o.onSceneSide) offset = onFilm(o, offset);
-    const WindowCandidate candidate = {offset, offset.x * offset.x + offset.y * offset.y, position.z,
-                                       position.w, record};
-    return candidate;
+    return offset;
 }
 
 KERNEL void addToSurface(INOUT(WindowSurface) surface, IN(WindowCandidate) candidate, float alpha) {
@@ -67,12 +64,15 @@ KERNEL WindowFinds collect(IN(WindowSearch) search, ivec2 pixel, IN(Output) o) {
         const int row = y * search.boundsSize.x;
         const uint begin = pixelStartAt(row + first.x), end = pixelStartAt(row + last.x + 1);
         for (uint record = begin; record < end; ++record) {
-            const WindowCandidate candidate = candidateAt(record, o);
-            if (candidate.distance2 < finds.nearest2) {
-                finds.nearest2 = candidate.distance2;
+            IN(vec4) position = positionAt(record);
+            const vec2 offset = offsetOf(position, o);
+            const float distance2 = offset.x * offset.x + offset.y * offset.y;
+            if (distance2 < finds.nearest2) {
+                finds.nearest2 = distance2;
                 finds.nearest = record;
             }
-            if (!(candidate.distance2 < candidate.radius2)) continue;
+            if (!(distance2 < position.w)) continue;
+            const WindowCandidate candidate = {offset, distance2, position.z, record};
             keepCandidate(finds.count, candidate);
             ++finds.count;
         }
@@ -99,10 +99,10 @@ KERNEL WindowView viewOf(IN(WindowSearch) search, IN(WindowFinds) finds, IN(Outp
     // not entered.
     sortCandidates(finds.count);
     WindowSurface front = noWindowSurface(), surface = noWindowSurface();
-    WindowCandidate previous = {vec2(0.0f), 0.0f, 0.0f, 0.0f, 0u};
+    WindowCandidate previous = {vec2(0.0f), 0.0f, 0.0f, 0u};
     bool taken = false;
     for (int i = 0; i < finds.count && !taken; ++i) {
-        const WindowCandidate candidate = keptCandidate(i, o);
+        IN(WindowCandidate) candidate = keptCandidate(i, o);
         if (surface.count >= kMinSurface && !sameSurface(previous, candidate, search.lensStep)) {
             taken = surrounds(surface.hull);
             if (taken) break;

@@ -28,7 +28,6 @@ SLANT_SHARED_CONSTANT uint kWindowHole = 3u;   // nothing: black
 struct WindowCandidate {
     vec2 offset; // from the output, pixels
     float distance2, slope;
-    float radius2; // it counts for outputs that are nearer
     uint record;
 };
 
