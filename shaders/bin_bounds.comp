@@ -1,8 +1,9 @@
 #version 460
-// Bounds of each brick's samples, and the key at which it begins. All are least values of unsigned integers (greatest
-// ones by their complement, floats by their ordered bits), so that atomics give the same in every order.
+// Bounds of each brick's samples, and the key at which it begins. All are least values of unsigned integers
+// (greatest ones by their complement, floats by their ordered bits), so that atomics give the same in every
+// order.
 #extension GL_GOOGLE_include_directive : require
-#include "lib/invocation.glsl"
+#include "resources/invocation.glsl"
 #include "lib/ordered_float.glsl"
 #include "shared/reconstruct.h"
 

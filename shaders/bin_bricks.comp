@@ -1,8 +1,8 @@
 #version 460
-// The occupied bricks: place from the key, bounds as bin_bounds gathered them; and where in cellStart their cell at
-// the grid's origin would stand (modulo 2^32), so that cells are found without dividing.
+// The occupied bricks: place from the key, bounds as bin_bounds gathered them; and where in cellStart their
+// cell at the grid's origin would stand (modulo 2^32), so that cells are found without dividing.
 #extension GL_GOOGLE_include_directive : require
-#include "lib/invocation.glsl"
+#include "resources/invocation.glsl"
 #include "lib/ordered_float.glsl"
 #include "shared/reconstruct.h"
 

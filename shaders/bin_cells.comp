@@ -1,8 +1,8 @@
 #version 460
-// The first record of each cell of each brick: where its key would stand among the sorted keys. One invocation is a
-// row of cells.
+// The first record of each cell of each brick: where its key would stand among the sorted keys. One
+// invocation is a row of cells.
 #extension GL_GOOGLE_include_directive : require
-#include "lib/invocation.glsl"
+#include "resources/invocation.glsl"
 #include "shared/reconstruct.h"
 
 layout(local_size_x = 64) in;

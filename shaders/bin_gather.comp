@@ -1,8 +1,10 @@
 #version 460
-// Records in the order of their sorted keys, with the weights of their visibility, and 1 where a new brick begins.
+// Records in the order of their sorted keys, with the weights of their visibility, and 1 where a new brick
+// begins.
 #extension GL_GOOGLE_include_directive : require
-#include "lib/invocation.glsl"
 #include "lib/occlusion.glsl"
+#include "resources/compound_lens.glsl"
+#include "resources/invocation.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform utextureBuffer keys;
@@ -14,7 +16,6 @@ layout(set = 0, binding = 5, rgba32f) uniform writeonly imageBuffer values; // t
 layout(set = 0, binding = 6, r32ui) uniform writeonly uimageBuffer brickBegins;
 layout(set = 0, binding = 7) uniform utextureBuffer stopped;
 layout(push_constant) uniform Push { BinPush push; };
-layout(constant_id = 0) const bool kCompoundLens = false;
 
 void main() {
     const uint i = linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);

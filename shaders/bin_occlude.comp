@@ -1,9 +1,9 @@
 #version 460
 // Counts, for each block of the planes behind a sample, that its ray ends before it gets there.
 #extension GL_GOOGLE_include_directive : require
-#include "lib/grid.glsl"
-#include "lib/invocation.glsl"
 #include "lib/occlusion.glsl"
+#include "lib/trajectory.glsl"
+#include "resources/invocation.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform textureBuffer samples; // two texels a sample: LightFieldSample
@@ -19,7 +19,8 @@ void main() {
     if (!isFollowed(planes, place.xy) || !(abs(slope) < kFarPx)) return; // disabled ones are far
     const vec2 origin = push.grid.origin;
     for (int plane = firstPlaneBehind(planes, slope, push.grid.surfaceGap); plane < planes.planeCount; ++plane) {
-        const int block = blockCrossed(planes, plane, place.xy - planeSlope(planes, plane) * place.zw, origin);
+        const int block =
+            blockCrossed(planes, plane, pinholeOf(place.xy, place.zw, planeSlope(planes, plane)), origin);
         if (block >= 0) imageAtomicAdd(stopped, block, 1u);
     }
 }

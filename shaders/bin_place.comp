@@ -2,7 +2,7 @@
 // Pinhole position, radius ratio and sort key of each uploaded sample.
 #extension GL_GOOGLE_include_directive : require
 #include "lib/grid.glsl"
-#include "lib/invocation.glsl"
+#include "resources/invocation.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform textureBuffer samples; // two texels a sample: LightFieldSample
@@ -20,7 +20,7 @@ void main() {
     if (i >= push.count) return;
     const vec4 place = texelFetch(samples, int(2u * i));
     const float slope = texelFetch(samples, int(2u * i + 1u)).z;
-    const vec2 p = place.xy - slope * place.zw;
+    const vec2 p = pinholeOf(place.xy, place.zw, slope);
     const int index = int(push.firstSample + i);
     const bool kept = reaches(p, slope, vec2(push.regionMin), vec2(push.regionMax), push.marginPx);
     const float radiusRatio = kept ? radiusRatioAt(push.density, p, slope, push.grid.radiusPx) : 1.0;

@@ -1,7 +1,7 @@
 #version 460
 // The values of the records: those of the samples that they are, beside their radius ratios.
 #extension GL_GOOGLE_include_directive : require
-#include "lib/invocation.glsl"
+#include "resources/invocation.glsl"
 #include "shared/reconstruct.h"
 
 layout(local_size_x = 64) in;

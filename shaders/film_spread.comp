@@ -1,6 +1,6 @@
 #version 460
-// What the dense samples of a pixel bring to each pixel around it, through the pixel filter: one invocation a pixel. So
-// each sample is read once, and its weights are. As addGroup of host/reconstruct/film_buffer.cpp.
+// What the dense samples of a pixel bring to each pixel around it, through the pixel filter: one invocation a
+// pixel. So each sample is read once, and its weights are.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/reconstruct.h"
 
@@ -9,14 +9,10 @@ layout(set = 0, binding = 0) uniform textureBuffer dense;
 layout(set = 0, binding = 1) uniform textureBuffer weights;
 layout(set = 0, binding = 2, rgba32f) uniform writeonly imageBuffer spread; // kTaps a pixel, row by row
 layout(push_constant) uniform Push { FilterPush push; };
-#include "lib/film_taps.glsl"
+#include "resources/film_taps.glsl"
 
-/// Weights along one axis of a sample at subpixel q for the pixels around, from `reach` pixels before it on.
-float axisWeight(int tableBegin, int tableLength, int offset, int q) {
-    const int k = offset * kSubpixels + q - kSubpixels / 2;
-    const int index = k >= 0 ? k : -k - 1;
-    return index >= tableLength ? 0.0 : texelFetch(weights, tableBegin + index).x;
-}
+float filterWeightAt(int i) { return texelFetch(weights, i).x; }
+#include "lib/film.glsl"
 
 vec4 sums[kTaps];
 float weightX[kColumns], weightY[kRows]; // of a sample
@@ -33,10 +29,6 @@ void setMeans() {
     const int means = push.tableLength.x + push.tableLength.y;
     for (int i = 0; i < kColumns; ++i) meanX[i] = texelFetch(weights, means + abs(i - kReachX)).x;
     for (int i = 0; i < kRows; ++i) meanY[i] = texelFetch(weights, means + kReachX + 1 + abs(i - kReachY)).x;
-}
-
-vec4 weighted(vec4 samp, float weight) {
-    return vec4(weight * samp.x, weight * samp.y, weight * samp.z, weight);
 }
 
 void addWhole(vec4 samp) {

@@ -2,7 +2,7 @@
 // How many tiles can see a brick through a lens group; the prefix sum of it says where list_emit writes.
 #extension GL_GOOGLE_include_directive : require
 #include "lib/grid.glsl"
-#include "lib/invocation.glsl"
+#include "resources/invocation.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform utextureBuffer bricks;
@@ -12,7 +12,7 @@ layout(set = 0, binding = 3) uniform textureBuffer lensTiles;
 layout(push_constant) uniform Push { OutputPush push; };
 
 float lensTileBoundAt(int i) { return texelFetch(lensTiles, i).x; }
-#include "lib/tiles_of_brick.glsl"
+#include "resources/tiles_of_brick.glsl"
 
 void main() {
     const uint i = linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);

@@ -1,9 +1,10 @@
 #version 460
-// (list, brick) for every tile that can see a brick through a lens group, in the order of groups and bricks: sorted
-// stably by list, each list is ascending. One invocation an entry, so that large footprints are spread.
+// (list, brick) for every tile that can see a brick through a lens group, in the order of groups and bricks:
+// sorted stably by list, each list is ascending. One invocation an entry, so that large footprints are
+// spread.
 #extension GL_GOOGLE_include_directive : require
 #include "lib/grid.glsl"
-#include "lib/invocation.glsl"
+#include "resources/invocation.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform utextureBuffer bricks;
@@ -15,7 +16,7 @@ layout(set = 0, binding = 5) uniform textureBuffer lensTiles;
 layout(push_constant) uniform Push { OutputPush push; };
 
 float lensTileBoundAt(int i) { return texelFetch(lensTiles, i).x; }
-#include "lib/tiles_of_brick.glsl"
+#include "resources/tiles_of_brick.glsl"
 
 uint keyAt(uint i) { return texelFetch(offsets, int(i)).x; }
 #include "lib/lower_bound.glsl"

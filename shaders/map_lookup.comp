@@ -1,9 +1,9 @@
 #version 460
-// The outputs of lists that the layer map serves: one invocation takes all those of a pixel. Where one of them meets
-// nothing, the pixel is left to reconstruct.comp, or the whole list. As host/reconstruct/map_lookup.cpp.
+// The outputs of lists that the layer map serves: one invocation takes all those of a pixel. Where one of
+// them meets nothing, the pixel is left to reconstruct.comp, or the whole list.
 #extension GL_GOOGLE_include_directive : require
-#include "lib/map_texel.glsl"
 #include "lib/output.glsl"
+#include "shared/layer_map.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0) uniform utextureBuffer listStart;
@@ -16,97 +16,13 @@ layout(set = 0, binding = 6, rgba32f) uniform writeonly imageBuffer dense;
 layout(set = 0, binding = 7, r32ui) uniform uimageBuffer missed; // two a list: a bit for each pixel
 layout(push_constant) uniform Push { MapLookupPush push; };
 
-struct Lookup {
-    float low, high; // slopes of the cluster, and half a gap to each side
-    ivec2 size;      // of the level
-    ivec2 origin;    // its first texel
-    int begin;
-    float scale; // texels a pixel
-    SlopeCode code;
-};
-
-Lookup lookUp(vec3 cluster) {
-    const float gap = 0.5 * push.map.surfaceGap;
-    const int level = int(cluster.z), base = push.map.size.x * push.map.size.y;
-    return Lookup(cluster.x - gap, cluster.y + gap, push.map.size >> level, push.map.texelsPerPixel * push.map.origin >> level,
-                  4 * (base - (base >> 2 * level)) / 3, float(push.map.texelsPerPixel) * powerOfTwo(kFloatBias - uint(level)),
-                  push.map.code);
+#define mapLayout push.map
+uvec4 mapTexelAt(int i) { return texelFetch(texels, i); }
+Cluster clusterAt(int i) {
+    const vec3 cluster = texelFetch(clusters, i).xyz;
+    return Cluster(cluster.x, cluster.y, cluster.z);
 }
-
-bool fits(Lookup lookup, float slope) { return slope >= lookup.low && slope <= lookup.high; }
-
-/// The foremost layer of a texel, counted from raster position 0, that belongs to the cluster; false without one.
-bool layerAt(Lookup lookup, ivec2 place, inout uvec2 words, inout float slope) {
-    const ivec2 inMap = place - lookup.origin;
-    const bool inside = uint(inMap.x) < uint(lookup.size.x) && uint(inMap.y) < uint(lookup.size.y);
-    const uvec4 texel = texelFetch(texels, inside ? lookup.begin + inMap.y * lookup.size.x + inMap.x : 0);
-    const float front = unpackSlope(texel.y, lookup.code), back = unpackSlope(texel.w, lookup.code);
-    const bool isFront = fits(lookup, front), found = inside && (isFront || fits(lookup, back));
-    if (found) {
-        words = isFront ? texel.xy : texel.zw;
-        slope = isFront ? front : back;
-    }
-    return found;
-}
-
-ivec2 placeAt(Lookup lookup, vec2 x, vec2 uv, float slope) { return ivec2(floor((x - slope * uv) * lookup.scale)); }
-
-/// Follows the ray x - slope * uv from a few slopes of the cluster to where the map has that slope. The loops end at
-/// their ends, since lavapipe goes through the rest of a round that all invocations have left.
-float settle(Lookup lookup, vec2 cluster, vec2 x, vec2 uv) {
-    const vec3 starts = vec3(0.5 * (cluster.x + cluster.y), cluster.y, cluster.x);
-    const float spread = (cluster.y - cluster.x) * max(abs(uv.x), abs(uv.y));
-    const int last = spread * lookup.scale < 1.0 ? 0 : 2; // within a texel one start is as good as three
-    uvec2 words;
-    for (int start = 0;; ++start) {
-        float slope = starts[start];
-        ivec2 place = placeAt(lookup, x, uv, slope);
-        bool met = false;
-        for (int step_ = 1;; ++step_) {
-            const bool found = layerAt(lookup, place, words, slope);
-            met = met || found;
-            const ivec2 next = placeAt(lookup, x, uv, slope);
-            if (!found || next == place || step_ == kSettleSteps) break;
-            place = next;
-        }
-        if (met || start == last) return slope;
-    }
-}
-
-/// The layer around a place, interpolated: radiance times coverage, coverage.
-vec4 layerAround(Lookup lookup, vec2 place) {
-    const vec2 corner = floor(place - 0.5), part = place - 0.5 - corner;
-    vec4 sum = vec4(0.0);
-    for (int i = 0; i < 4; ++i) {
-        const ivec2 step_ = ivec2(i & 1, i >> 1);
-        uvec2 words;
-        float slope;
-        if (!layerAt(lookup, ivec2(corner) + step_, words, slope)) continue;
-        const vec4 layer = unpackLayer(words);
-        const float weight = (step_.x == 1 ? part.x : 1.0 - part.x) * (step_.y == 1 ? part.y : 1.0 - part.y) * layer.w;
-        sum += vec4(weight * layer.rgb, weight);
-    }
-    return sum;
-}
-
-/// What is seen from x through one lens position, added to `sum`; false if nothing.
-bool look(vec2 x, vec2 uv, int clusterBegin, uint clusterCount, inout vec3 sum) {
-    vec3 rgb = vec3(0.0), last = vec3(0.0);
-    float transmittance = 1.0;
-    for (uint i = 0u; i < clusterCount; ++i) {
-        const vec3 cluster = texelFetch(clusters, clusterBegin + int(i)).xyz;
-        const Lookup lookup = lookUp(cluster);
-        const float slope = settle(lookup, cluster.xy, x, uv);
-        const vec4 layer = layerAround(lookup, (x - slope * uv) * lookup.scale);
-        if (!(layer.w > 0.0)) continue;
-        rgb += transmittance * layer.rgb;
-        transmittance *= 1.0 - layer.w;
-        last = layer.rgb / layer.w;
-        if (transmittance < kOpaque) break;
-    }
-    sum += rgb + transmittance * last;
-    return transmittance != 1.0;
-}
+#include "lib/map_lookup.glsl"
 
 /// Leaves this pixel to the bins, or all of the list.
 void miss(int list, uint clusterCount) {
@@ -132,7 +48,7 @@ void main() {
     vec3 sum = vec3(0.0);
     for (int rank = 0; rank < groupSize; ++rank) {
         if (rank >= taken && !inFocus) break;
-        const int i = sparse ? int(inOrder(texelFetch(pattern, firstOutput + rank))) : rank;
+        const int i = sparse ? inOrder(texelFetch(pattern, firstOutput + rank)) : rank;
         vec4 value = vec4(vec3(0.0), kLeftOut);
         if (rank < taken) {
             Output o = outputOnFilm(vec2(pixel) + 0.5, vec2(0.0), 0.0, kWholePixel);
@@ -140,7 +56,7 @@ void main() {
                 o = placed(pixel, texelFetch(pattern, firstOutput + i), seedOf(pixel, push.outputs.seed));
                 sum = vec3(0.0);
             }
-            if (!look(o.xy, texelFetch(lensPoints, firstOutput + i).xy, clusterBegin, clusterCount, sum)) {
+            if (!look(o.xy, texelFetch(lensPoints, firstOutput + i).xy, clusterBegin, int(clusterCount), sum)) {
                 miss(list, clusterCount);
                 return;
             }

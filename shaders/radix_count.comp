@@ -2,7 +2,7 @@
 // How often each digit occurs in each chunk of keys, digit by digit: histogram[digit * chunks + chunk].
 #extension GL_GOOGLE_include_directive : require
 #include "lib/digit_counts.glsl"
-#include "lib/invocation.glsl"
+#include "resources/invocation.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform utextureBuffer keys;

@@ -1,9 +1,10 @@
 #version 460
 // Moves each pair to its place: behind all pairs of lower digits, all of its digit in earlier chunks (both in
-// offsets, the scanned histogram), and those of its digit before it in its own chunk. Equal digits keep their order.
+// offsets, the scanned histogram), and those of its digit before it in its own chunk. Equal digits keep their
+// order.
 #extension GL_GOOGLE_include_directive : require
 #include "lib/digit_counts.glsl"
-#include "lib/invocation.glsl"
+#include "resources/invocation.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform utextureBuffer keysBefore;

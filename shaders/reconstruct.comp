@@ -1,10 +1,9 @@
 #version 460
-// Dense samples, first try: the front-most apparent surface within R. One workgroup is one output of each pixel of
-// one tile; what needs more is appended to a list for visibility.comp.
+// Dense samples, first try: the front-most apparent surface within R. One workgroup is one output of each
+// pixel of one tile; what needs more is appended to a list for visibility.comp.
 #extension GL_GOOGLE_include_directive : require
-#include "lib/bins.glsl"
-#include "lib/candidate.glsl"
-#include "lib/grid.glsl"
+#include "resources/bins.glsl"
+#include "resources/compound_lens.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 6) uniform utextureBuffer pattern;
@@ -14,46 +13,21 @@ layout(set = 0, binding = 9, r32ui) uniform writeonly uimageBuffer visibilityLis
 layout(set = 0, binding = 10, r32ui) uniform writeonly uimageBuffer overflowList;
 layout(set = 0, binding = 11) uniform utextureBuffer left; // lists to search for: tile x, y, lens group, list
 layout(set = 0, binding = 12) uniform textureBuffer apertureTable;
+layout(set = 0, binding = 13) uniform textureBuffer lensMap;
 layout(set = 0, binding = 14) uniform utextureBuffer missed; // two a list: a bit for each pixel that is left
 
 float apertureAt(int i) { return texelFetch(apertureTable, i).x; }
-layout(set = 0, binding = 13) uniform textureBuffer lensMap;
-
 vec4 lensMapAt(int texel) { return texelFetch(lensMap, texel); }
+#include "lib/aperture.glsl"
+#include "lib/lens_map.glsl"
+#include "lib/nearest.glsl"
 #include "lib/output_pattern.glsl"
-#include "lib/scene_side.glsl"
+#include "lib/search.glsl"
 
 /// Output of a lens group, of those that stand at `rank` in its order.
 uint memberAt(uint firstOfGroup, uint rank) {
-    return inOrder(texelFetch(pattern, push.firstOutput + int(firstOfGroup + rank)));
+    return uint(inOrder(texelFetch(pattern, push.firstOutput + int(firstOfGroup + rank))));
 }
-
-struct Sweep {
-    bool running;
-    float invRadius, surfaceGap;
-    vec3 sum;
-    float weightSum, slopeMax;
-    Hull hull;
-};
-
-void visit(Candidate candidate, inout Sweep sweep) {
-    if (sweep.weightSum > 0.0 && candidate.slope > sweep.slopeMax + sweep.surfaceGap) {
-        sweep.running = false; // there is another surface behind
-        return;
-    }
-    const float weight = candidate.weight * (1.0 - sqrt(candidate.distance2) * sweep.invRadius);
-    sweep.sum += weight * candidate.value.rgb;
-    sweep.weightSum += weight;
-    sweep.slopeMax = max(sweep.slopeMax, candidate.slope);
-    addPoint(sweep.hull, candidate.offset);
-}
-
-bool isSolid(Sweep sweep) { return sweep.weightSum >= kSolidInner * kFullWeight && surrounds(sweep.hull); }
-
-bool hides(Sweep sweep, Brick brick) {
-    return brick.slopeMin > sweep.slopeMax + sweep.surfaceGap && isSolid(sweep);
-}
-#include "lib/search.glsl"
 
 void main() {
     // Workgroups that share a list follow one another; nothing is divided, which lavapipe does lane by lane.
@@ -65,8 +39,9 @@ void main() {
     const uvec4 item = texelFetch(left, int(workgroup >> takenBits));
     const uvec2 tile = item.xy;
     const uint group = item.z, list = item.w;
-    // Of the 64 << takenBits outputs of this list: eight neighbouring lanes take two lens positions of a square of two
-    // by two pixels; of the ways to split a tile and a lens group this keeps their candidates most alike.
+    // Of the 64 << takenBits outputs of this list: eight neighbouring lanes take two lens positions of a
+    // square of two by two pixels; of the ways to split a tile and a lens group this keeps their candidates
+    // most alike.
     const uint place = bitfieldExtract(workgroup, 0, takenBits) << 6 | gl_LocalInvocationIndex;
     const int pairBits = min(takenBits, 1), restBits = takenBits - pairBits;
     const uint pair = bitfieldExtract(place, 0, pairBits), quad = bitfieldExtract(place, pairBits, 2);
@@ -86,23 +61,21 @@ void main() {
     const uint plane = uint(outputs.regionSize.x * outputs.regionSize.y);
     const uint inPlane = uint(position.y * outputs.regionSize.x + position.x), slot = k * plane + inPlane;
     for (uint other = rank + (1u << takenBits); other < 1u << groupBits; other += 1u << takenBits)
-        imageStore(dense, int((firstOfGroup + memberAt(firstOfGroup, other)) * plane + inPlane), vec4(vec3(0.0), kLeftOut));
+        imageStore(dense, int((firstOfGroup + memberAt(firstOfGroup, other)) * plane + inPlane),
+                   vec4(vec3(0.0), kLeftOut));
     if (kCompoundLens) {
-        toSceneSide(o);
+        toSceneSide(o, sceneRay(o.xy, o.uv));
         if (!(o.weight > 0.0)) { // the film is dark
             imageStore(dense, int(slot), vec4(0.0, 0.0, 0.0, o.positionCode));
             return;
         }
     }
-    Sweep sweep = Sweep(true, 1.0 / grid.radiusPx, grid.surfaceGap, vec3(0.0), 0.0, -kInfinity, noHull());
-    const bool complete = forEachCandidate(grid, o, grid.radiusPx, kAnyRadiusRatio, texelFetch(listStart, int(list)).x,
-                                           texelFetch(listStart, int(list) + 1).x, sweep);
-    if (!complete) {
+    Sweep sweep = newSweep(grid.radiusPx, grid.surfaceGap);
+    const uint begin = texelFetch(listStart, int(list)).x, end = texelFetch(listStart, int(list) + 1).x;
+    const int steps = forEachCandidate(grid, o, grid.radiusPx, kAnyRadiusRatio, begin, end, sweep);
+    if (steps > kMaxSteps)
         imageStore(overflowList, int(imageAtomicAdd(counters, int(kOverflowCount), 1u)), uvec4(slot));
-        return;
-    }
-    const bool taken = sweep.running ? sweep.weightSum > 0.0 : isSolid(sweep);
-    if (taken)
+    else if (isTaken(sweep))
         imageStore(dense, int(slot), vec4(o.weight * (sweep.sum / sweep.weightSum), o.positionCode));
     else
         imageStore(visibilityList, int(imageAtomicAdd(counters, int(kVisibilityCount), 1u)), uvec4(slot));

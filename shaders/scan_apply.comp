@@ -1,7 +1,7 @@
 #version 460
 // Replaces each item by the sum of those before it: in its chunk, and in all chunks before that (offsets).
 #extension GL_GOOGLE_include_directive : require
-#include "lib/invocation.glsl"
+#include "resources/invocation.glsl"
 #include "shared/scan.h"
 
 layout(local_size_x = 64) in;

@@ -1,7 +1,7 @@
 #version 460
 // The sum of each chunk of items.
 #extension GL_GOOGLE_include_directive : require
-#include "lib/invocation.glsl"
+#include "resources/invocation.glsl"
 #include "shared/scan.h"
 
 layout(local_size_x = 64) in;

@@ -1,10 +1,9 @@
 #version 460
-// Dense samples from a fixed window of pixels. One invocation an output; neighbours in x are neighbours in a vector, and
-// their windows have the same size. As host/reconstruct/window.cpp, where it is explained.
+// Dense samples from a fixed window of pixels. One invocation an output; neighbours in x are neighbours in a
+// vector, and their windows have the same size.
 #extension GL_GOOGLE_include_directive : require
-#include "lib/candidate.glsl"
-#include "lib/gaussian.glsl"
-#include "lib/invocation.glsl"
+#include "resources/compound_lens.glsl"
+#include "resources/invocation.glsl"
 #include "shared/window.h"
 
 layout(local_size_x = 64) in;
@@ -21,45 +20,43 @@ layout(push_constant) uniform Push { WindowPush push; };
 
 float apertureAt(int i) { return texelFetch(apertureTable, i).x; }
 vec4 lensMapAt(int texel) { return texelFetch(lensMap, texel); }
+vec4 positionAt(uint record) { return texelFetch(positions, int(record)); }
+vec4 valueAt(uint record) { return texelFetch(values, int(record)); }
+uint pixelStartAt(int pixel) { return texelFetch(pixelStart, pixel).x; }
+#include "lib/aperture.glsl"
+#include "lib/lens_map.glsl"
 #include "lib/output_pattern.glsl"
-#include "lib/scene_side.glsl"
+#include "shared/window.h"
 
-struct WindowSurface {
-    int count;
-    vec3 sum;
-    float weightSum;
-    Hull hull;
-};
+float slopes[kMaxWindowCandidates];
+uint records[kMaxWindowCandidates];
 
-WindowSurface noSurface() { return WindowSurface(0, vec3(0.0), 0.0, noHull()); }
-
-struct WindowCandidate {
-    vec2 offset; // from the output, pixels
-    float distance2, slope, radius2;
-    uint record;
-};
-
-WindowCandidate candidateAt(uint record, Output o) {
-    const vec4 position = texelFetch(positions, int(record));
-    vec2 offset = position.xy + position.z * o.uv - o.xy;
-    if (kCompoundLens) offset = onFilm(o, offset);
-    return WindowCandidate(offset, offset.x * offset.x + offset.y * offset.y, position.z, position.w, record);
+void keepCandidate(int place, WindowCandidate candidate) {
+    if (place >= kMaxWindowCandidates) return;
+    slopes[place] = candidate.slope;
+    records[place] = candidate.record;
 }
 
-void addSample(inout WindowSurface surface, WindowCandidate candidate, float alpha) {
-    const float weight = expOfMinus(min(alpha * candidate.distance2, kMaxExponent));
-    surface.count += 1;
-    surface.sum += weight * texelFetch(values, int(candidate.record)).rgb;
-    surface.weightSum += weight;
-    addPoint(surface.hull, candidate.offset);
+vec2 offsetOf(vec4 position, Output o);
+WindowCandidate keptCandidate(int place, Output o) {
+    const vec2 offset = offsetOf(positionAt(records[place]), o);
+    return WindowCandidate(offset, offset.x * offset.x + offset.y * offset.y, slopes[place], records[place]);
 }
 
-/// Whether two trajectories have the same order, in x and in y, a lens step to either side.
-bool sameSurface(WindowCandidate a, WindowCandidate b, float lensStep) {
-    const vec2 apart = a.offset - b.offset;
-    const float shear = (a.slope - b.slope) * lensStep;
-    return (apart.x + shear > 0.0) == (apart.x - shear > 0.0) && (apart.y + shear > 0.0) == (apart.y - shear > 0.0);
+void sortCandidates(int count) {
+    for (int i = 1; i < count; ++i) {
+        const float slope = slopes[i];
+        const uint record = records[i];
+        int at = i;
+        for (; at > 0 && slopes[at - 1] > slope; --at) {
+            slopes[at] = slopes[at - 1];
+            records[at] = records[at - 1];
+        }
+        slopes[at] = slope;
+        records[at] = record;
+    }
 }
+#include "lib/window.glsl"
 
 void count(uint counter) { imageAtomicAdd(counters, int(counter), 1u); }
 
@@ -75,81 +72,21 @@ void main() {
     const int index = push.firstOutput + int(k);
     Output o = outputAt(pixel, index, texelFetch(pattern, index), push.lensCells, push.lensScale, outputs.seed);
     if (kCompoundLens) {
-        toSceneSide(o);
+        toSceneSide(o, sceneRay(o.xy, o.uv));
         if (!(o.weight > 0.0)) { // the film is dark
             imageStore(dense, int(slot), vec4(0.0, 0.0, 0.0, o.positionCode));
             return;
         }
     }
 
-    float slopes[kMaxWindowCandidates];
-    uint records[kMaxWindowCandidates];
-    int found = 0;
-    uint nearest = 0u;
-    float nearest2 = kInfinity;
-    const ivec2 center = pixel - search.boundsOrigin;
-    const ivec2 first = max(center - search.rangePx, ivec2(0));
-    const ivec2 last = min(center + search.rangePx, search.boundsSize - 1);
-    for (int y = first.y; y <= last.y; ++y) {
-        if (last.x < first.x) break;
-        const int row = y * search.boundsSize.x;
-        const uint begin = texelFetch(pixelStart, row + first.x).x, end = texelFetch(pixelStart, row + last.x + 1).x;
-        for (uint record = begin; record < end; ++record) {
-            const WindowCandidate candidate = candidateAt(record, o);
-            if (candidate.distance2 < nearest2) {
-                nearest2 = candidate.distance2;
-                nearest = record;
-            }
-            if (!(candidate.distance2 < candidate.radius2)) continue;
-            if (found < kMaxWindowCandidates) {
-                slopes[found] = candidate.slope;
-                records[found] = record;
-            }
-            ++found;
-        }
-    }
-    if (found > kMaxWindowCandidates) {
+    const WindowFinds finds = collect(search, pixel, o);
+    if (finds.count > kMaxWindowCandidates) {
         imageStore(overflowList, int(imageAtomicAdd(counters, int(kOverflowCount), 1u)), uvec4(slot));
         return;
     }
-    if (found == 0) {
-        const bool filled = search.fill != 0u && nearest2 < kInfinity;
-        count(filled ? kFilledCount : kHoleCount);
-        const vec3 rgb = filled ? texelFetch(values, int(nearest)).rgb : vec3(0.0);
-        imageStore(dense, int(slot), vec4(o.weight * rgb, o.positionCode));
-        return;
-    }
-
-    // Front to back, in the order of samples where slopes are equal. Not while they are gathered: lavapipe counts a step
-    // of an inner loop even where it is not entered.
-    for (int i = 1; i < found; ++i) {
-        const float slope = slopes[i];
-        const uint record = records[i];
-        int at = i;
-        for (; at > 0 && slopes[at - 1] > slope; --at) {
-            slopes[at] = slopes[at - 1];
-            records[at] = records[at - 1];
-        }
-        slopes[at] = slope;
-        records[at] = record;
-    }
-
-    WindowSurface front = noSurface(), surface = noSurface();
-    WindowCandidate previous;
-    bool taken = false;
-    for (int i = 0; i < found && !taken; ++i) {
-        const WindowCandidate candidate = candidateAt(records[i], o);
-        if (surface.count >= kMinSurface && !sameSurface(previous, candidate, search.lensStep)) {
-            taken = surrounds(surface.hull);
-            if (taken) break;
-            if (front.count == 0) front = surface;
-            surface = noSurface();
-        }
-        addSample(surface, candidate, search.alpha);
-        previous = candidate;
-    }
-    taken = taken || surrounds(surface.hull);
-    if (taken ? surface.count < found : front.count > 0) count(kVisibilityCount);
-    if (!taken && front.count > 0) surface = front;
-    imageStore(dense, int(slot), vec4(o.weight * (surface.sum / surface.weightSum), o.positionCode));
+    const WindowView view = viewOf(search, finds, o);
+    if (view.outcome == kWindowParted) count(kVisibilityCount);
+    if (view.outcome == kWindowFilled) count(kFilledCount);
+    if (view.outcome == kWindowHole) count(kHoleCount);
+    imageStore(dense, int(slot), vec4(o.weight * view.rgb, o.positionCode));
 }

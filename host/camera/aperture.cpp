@@ -1,6 +1,6 @@
 #include "camera/aperture.h"
 
-#include "camera/disc.h"
+#include "lib/disc.glsl"
 
 #include <algorithm>
 #include <cmath>
@@ -9,10 +9,7 @@
 namespace slant {
 namespace {
 
-using glm::vec2;
-
 constexpr int kSectors = ApertureShape::kSectors, kRings = ApertureShape::kRings;
-constexpr float kLastBelowOne = 0x1.fffffep-1f;
 constexpr float kTurn = 2 * std::numbers::pi_v<float>;
 
 void appendCumulative(std::vector<float>& table, std::span<const double> weights) {
@@ -49,58 +46,13 @@ std::vector<float> tableOf(const ApertureShape& shape) {
     return table;
 }
 
-/// The cumulative light of the sectors, or of the rings of one.
-std::span<const float> sectorsOf(std::span<const float> table) {
-    return table.subspan(1, kSectors + 1);
-}
-std::span<const float> ringsOf(std::span<const float> table, int sector) {
-    return table.subspan(std::size_t(kSectors + 2 + sector * (kRings + 1)), kRings + 1);
-}
+/// What lib/aperture.glsl makes of a table.
+struct ApertureKernels {
+    const float* table;
 
-/// The entry of a cumulative table that a number in [0, 1) falls into; `entries` is a power of two.
-int entryAt(std::span<const float> cumulative, int entries, float s) {
-    int low = 0;
-    for (int step = entries / 2; step > 0; step /= 2)
-        if (cumulative[std::size_t(low + step)] <= s) low += step;
-    return low;
-}
-
-/// How far into the entry, 0 to 1.
-float partAt(std::span<const float> cumulative, int entry, float s) {
-    const float begin = cumulative[std::size_t(entry)], end = cumulative[std::size_t(entry) + 1];
-    return (s - begin) / (end - begin);
-}
-
-/// Of a place of the square [-1, 1]^2 in the concentric map: distance from the centre, angle in turns from
-/// (1, 0) towards (0, 1), below 1.
-struct Polar {
-    float distance, turn;
+    float apertureAt(int i) const { return table[i]; }
+#include "lib/aperture.glsl"
 };
-Polar polarOf(vec2 square) {
-    const bool wide = glm::abs(square.x) > glm::abs(square.y);
-    const float radius = wide ? square.x : square.y;
-    if (radius == 0) return {0, 0};
-    float turn = wide ? square.y / square.x * 0.125f : 0.25f - square.x / square.y * 0.125f;
-    if (radius < 0) turn += 0.5f;
-    if (turn < 0) turn += 1.f;
-    return {glm::abs(radius), glm::min(turn, kLastBelowOne)};
-}
-/// The inverse of it.
-vec2 squareOf(Polar polar) {
-    const float side = glm::floor(4.f * polar.turn + 0.5f), along = 8.f * polar.turn - 2.f * side;
-    const vec2 place = side == 1.f   ? vec2(-along, 1.f)
-                       : side == 2.f ? vec2(-1.f, -along)
-                       : side == 3.f ? vec2(along, -1.f)
-                                     : vec2(1.f, along);
-    return polar.distance * place;
-}
-
-/// Where in its sector's rings the share `s` of the light lies inwards.
-float distanceAt(std::span<const float> rings, float s) {
-    const int ring = entryAt(rings, kRings, s);
-    const float inner = float(ring) * (1.f / float(kRings)), outer = float(ring + 1) * (1.f / float(kRings));
-    return glm::sqrt(inner * inner + partAt(rings, ring, s) * (outer * outer - inner * inner));
-}
 
 void add(LensBox& box, vec2 p) {
     box.min = glm::min(box.min, p);
@@ -115,27 +67,7 @@ Aperture::Aperture(ApertureShape shape) {
 }
 
 vec2 Aperture::at(vec2 square) const {
-    const float kind = data_->table[0];
-    if (kind == 0) return concentricDisc(square);
-    return kind > 0 ? onOutline(square) : onWeights(square);
-}
-
-vec2 Aperture::onOutline(vec2 square) const {
-    const Polar polar = polarOf(square);
-    const int corners = int(data_->table[0]);
-    const float sector = polar.turn * float(corners);
-    const int i = glm::min(int(sector), corners - 1);
-    const vec2 begin = corner(i), end = corner(i + 1);
-    return polar.distance * (begin + (sector - float(i)) * (end - begin));
-}
-
-vec2 Aperture::onWeights(vec2 square) const {
-    const Polar polar = polarOf(square);
-    const std::span<const float> sectors = sectorsOf(table());
-    const int sector = entryAt(sectors, kSectors, polar.turn);
-    const float turn = (float(sector) + partAt(sectors, sector, polar.turn)) * (1.f / float(kSectors));
-    const float light = glm::min(polar.distance * polar.distance, kLastBelowOne);
-    return concentricDisc(squareOf({distanceAt(ringsOf(table(), sector), light), turn}));
+    return ApertureKernels{data_->table.data()}.lensPosition(square);
 }
 
 float Aperture::transmission(vec2 lens) const {
@@ -244,15 +176,16 @@ LensBox Aperture::weightsBox(vec2 squareMin, vec2 squareMax) const {
         }
     if (squareMin.y < 0 && squareMax.y > 0 && squareMax.x > 0) turnMin = 0, turnMax = kLastBelowOne;
 
-    const std::span<const float> sectors = sectorsOf(table());
-    const int first = entryAt(sectors, kSectors, turnMin), last = entryAt(sectors, kSectors, turnMax);
+    ApertureKernels kernels{data_->table.data()};
+    const int first = kernels.entryAt(1, kSectors, turnMin), last = kernels.entryAt(1, kSectors, turnMax);
     LensBox box{vec2(2), vec2(-2)};
     for (int sector = first; sector <= last; ++sector) {
-        if (sectors[std::size_t(sector)] == sectors[std::size_t(sector) + 1]) continue; // never chosen
+        if (kernels.apertureAt(1 + sector) == kernels.apertureAt(2 + sector)) continue; // never chosen
         for (const float distance : {distanceMin, distanceMax})
             for (const int side : {0, 1})
-                add(box, concentricDisc(squareOf({distanceAt(ringsOf(table(), sector), lightOf(distance)),
-                                                  float(sector + side) * (1.f / float(kSectors))})));
+                add(box,
+                    concentricDisc(squareOf({kernels.distanceAt(kernels.ringsOf(sector), lightOf(distance)),
+                                             float(sector + side) * (1.f / float(kSectors))})));
     }
     constexpr float kSag = 1e-4f; // of an arc of a sector, and rounding
     return {box.min - kSag, box.max + kSag};

@@ -3,8 +3,7 @@
 //
 // The disc's is Shirley and Chiu's concentric map. An outline's is the same with the disc's sectors replaced
 // by the triangles of the outline: linear within each, it keeps areas. Weights turn the angles and then the
-// distances of the disc's by their inverse cumulative distribution. Each has the same arithmetic in
-// lib/aperture.glsl.
+// distances of the disc's by their inverse cumulative distribution (shaders/lib/aperture.glsl).
 #pragma once
 #include "scene/aperture_shape.h"
 
@@ -47,8 +46,6 @@ private:
         std::vector<float> table;
     };
 
-    glm::vec2 onOutline(glm::vec2 square) const;
-    glm::vec2 onWeights(glm::vec2 square) const;
     LensBox outlineBox(glm::vec2 squareMin, glm::vec2 squareMax) const;
     LensBox weightsBox(glm::vec2 squareMin, glm::vec2 squareMax) const;
     glm::vec2 corner(int i) const { return {data_->table[1 + 2 * i], data_->table[2 + 2 * i]}; }

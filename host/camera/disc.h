@@ -21,19 +21,4 @@ inline glm::vec2 concentricDisc(float a, float b) {
     return wide ? glm::vec2(radius * cosine, radius * sine) : glm::vec2(radius * sine, radius * cosine);
 }
 
-/// The same from [-1, 1]^2, in the arithmetic of lib/aperture.glsl.
-inline glm::vec2 concentricDisc(glm::vec2 square) {
-    const float a = square.x, b = square.y;
-    if (a == 0 && b == 0) return glm::vec2(0);
-    const bool wide = glm::abs(a) > glm::abs(b);
-    const float r = wide ? a : b;
-    const float q = wide ? b / a : a / b;
-    const float x = q * 0.785398163f;
-    const float z = x * x;
-    const float sine =
-        x * (1.f + z * (-0.166666667f + z * (0.00833333333f + z * (-0.000198412698f + z * 2.75573192e-6f))));
-    const float cosine = 1.f + z * (-0.5f + z * (0.0416666667f + z * (-0.00138888889f + z * 2.48015873e-5f)));
-    return wide ? glm::vec2(r * cosine, r * sine) : glm::vec2(r * sine, r * cosine);
-}
-
 } // namespace slant

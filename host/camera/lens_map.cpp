@@ -1,6 +1,7 @@
 #include "camera/lens_map.h"
 
 #include "camera/compound_lens.h"
+#include "shared/kernel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -89,64 +90,19 @@ LensMap makeLensMap(const CompoundLens& camera) {
     return LensMap(std::move(texels));
 }
 
+namespace {
+
+struct LensMapKernels {
+    const vec4* texels;
+
+    const vec4& lensMapAt(int texel) const { return texels[texel]; }
+#include "lib/lens_map.glsl"
+};
+
+} // namespace
+
 SceneRay LensMap::at(vec2 raster, vec2 lens) const {
-    const vec4 &head = texels_[0], &shape = texels_[1];
-    const vec2 offset = raster - vec2(head.x, head.y);
-    const float r = glm::sqrt(offset.x * offset.x + offset.y * offset.y);
-    const float radii = r * head.z;
-    SceneRay place{};
-    if (!(radii < head.w - 1)) return place;
-    const int radius = int(radii);
-    const vec4& inner = texels_[std::size_t(kLensMapHeader + radius)];
-    const vec4 here =
-        inner + (radii - float(radius)) * (texels_[std::size_t(kLensMapHeader + radius + 1)] - inner);
-    if (!(here.w > 0)) return place;
-
-    // In the frame of the radius.
-    const vec2 e = r > 0 ? offset / r : vec2(1, 0);
-    const vec2 d(lens.x * e.x + lens.y * e.y, lens.y * e.x - lens.x * e.y);
-    const float rings = glm::min(r * shape.x, shape.y - 1);
-    const int ring = glm::min(int(rings), int(shape.y) - 2);
-    const float norm = glm::abs(d.x) + glm::abs(d.y);
-    const float turns = norm > 0 ? (1 - d.x / norm) * (shape.z * 0.5f) : 0.f;
-    const int turn = glm::min(int(turns), int(shape.z) - 1);
-    const float distances = glm::min(glm::sqrt(d.x * d.x + d.y * d.y), 1.f) * shape.w;
-    const int distance = glm::min(int(distances), int(shape.w) - 1);
-
-    const int row = int(shape.w) + 1, plane = row * (int(shape.z) + 1);
-    const int first = kLensMapHeader + int(head.w) + ring * plane + turn * row + distance;
-    const auto along = [&](int index) {
-        const vec4& a = texels_[std::size_t(index)];
-        return a + (distances - float(distance)) * (texels_[std::size_t(index + 1)] - a);
-    };
-    const auto inRing = [&](int index) {
-        const vec4 a = along(index);
-        return a + (turns - float(turn)) * (along(index + row) - a);
-    };
-    const auto inPlace = [&](int index) {
-        const vec4 a = inRing(index);
-        return a + (rings - float(ring)) * (inRing(index + plane) - a);
-    };
-    const vec4 node = inPlace(first);
-    place.weight = here.w;
-    place.openShare = 1;
-    if (texels_[2].x > 0) {
-        const vec4 light = inPlace(first + plane * int(shape.y));
-        place.weight = light.y >= 0 ? light.x : 0.f;
-        place.openShare = light.z;
-    }
-
-    const float side = d.y < 0 ? -1.f : 1.f;
-    const vec2 x(here.x + here.y * node.x, here.z * (side * node.y)), u(node.z, side * node.w);
-    place.xy = vec2(head.x, head.y) + vec2(x.x * e.x - x.y * e.y, x.x * e.y + x.y * e.x);
-    place.uv = vec2(u.x * e.x - u.y * e.y, u.x * e.y + u.y * e.x);
-    const float along_ = 1 / here.y, across = 1 / here.z;
-    place.filmMetric = vec3(across + e.x * e.x * (along_ - across), e.x * e.y * (along_ - across),
-                            across + e.y * e.y * (along_ - across));
-    const float skew = glm::abs(e.x * e.y * (here.y - here.z));
-    place.extent =
-        vec2(here.z + e.x * e.x * (here.y - here.z) + skew, here.z + e.y * e.y * (here.y - here.z) + skew);
-    return place;
+    return LensMapKernels{texels_.data()}.sceneRay(raster, lens);
 }
 
 const char* faultOf(const std::vector<vec4>& texels) {

@@ -12,7 +12,7 @@
 // table, the same for all who use it, interpolated linearly: in coarse rings what aberrations do, in fine
 // ones the rest. Where the disc is that of the stop, the table says also what each place gives the film and
 // how far within all rims its rays stay: beyond them they go on as if there were none, so that what lies
-// between is smooth. Single floats and + - * / sqrt only, in the order of lib/lens_map.glsl.
+// between is smooth. Single floats and + - * / sqrt only (shaders/lib/lens_map.glsl).
 #pragma once
 #include "shared/lens_map.h"
 
@@ -20,17 +20,6 @@
 #include <vector>
 
 namespace slant {
-
-/// A ray on the scene's side.
-struct SceneRay {
-    vec2 xy; ///< on the plane in focus, pixels
-    vec2 uv; ///< on the entrance pupil's plane, radii
-    /// Symmetric matrix (xx, xy, yy) that turns a short way there into one on the film.
-    vec3 filmMetric;
-    vec2 extent;     ///< half the size of a box around all that is within a pixel of the film
-    float weight;    ///< irradiance of the film under radiance 1; 0: dark, no ray gets there
-    float openShare; ///< of the disc, from which rays get there; 0: nothing else is set
-};
 
 class LensMap {
 public:

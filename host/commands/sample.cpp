@@ -41,7 +41,8 @@ void runSample(const FieldOptions& options) {
     sampling.guides = options.auxiliary;
     const LightField field = traceLightField(tracer, scene, sampling, monitor);
 
-    writeField(options.output, field, metadataOf(scene, tracer.camera(), options.scene, common.seed), monitor);
+    writeField(options.output, field, metadataOf(scene, tracer.camera(), options.scene, common.seed),
+               monitor);
     if (!common.statsPath.empty())
         writeStats(common.statsPath, monitor.stages(), watch.seconds(),
                    {{"scene", options.scene},

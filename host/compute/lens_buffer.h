@@ -7,7 +7,7 @@
 
 namespace slant {
 
-/// kCompoundLens of lib/output_pattern.glsl.
+/// kCompoundLens of resources/compound_lens.glsl.
 inline std::array<std::uint32_t, 1> compoundLens(bool isCompound) {
     return {isCompound ? 1u : 0u};
 }

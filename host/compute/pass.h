@@ -30,7 +30,7 @@ public:
     const ShaderInterface& interface() const;
 
     /// Enough workgroups for one invocation an item. Over the limit of one dimension the grid takes a second:
-    /// the shader finds its item by linearInvocation() (shaders/lib/invocation.glsl) and skips those past the
+    /// the shader finds its item by linearInvocation() (resources/invocation.glsl) and skips those past the
     /// end. Throws Error(resources) if even that is not enough.
     Grid gridFor(std::uint64_t items) const;
     /// Enough workgroups for one invocation a pixel; the shader skips those outside.

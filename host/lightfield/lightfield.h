@@ -98,8 +98,8 @@ struct FieldDefects {
 /// Applies the rules of FieldDefects to one sample and its radiance, and counts.
 void repair(LightFieldSample& sample, glm::vec3& radiance, FieldDefects& defects);
 
-/// Applies the rules of FieldDefects to every sample, in place; reconstruction expects a sanitized field. Throws
-/// Error(usage) where planes of values are not as long as the samples.
+/// Applies the rules of FieldDefects to every sample, in place; reconstruction expects a sanitized field.
+/// Throws Error(usage) where planes of values are not as long as the samples.
 FieldDefects sanitize(LightField& field);
 
 } // namespace slant

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "lib/trajectory.glsl"
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +43,7 @@ int missingOverscanPx(const LightField& field, const LensView& view) {
             for (std::size_t i = field.firstSample(first * width); i < field.firstSample(last * width); ++i) {
                 const LightFieldSample& s = field.samples[i];
                 const float radius = std::abs(s.slope + view.slopeShift) * view.apertureScale;
-                const glm::vec2 p = glm::vec2(s.x, s.y) - s.slope * glm::vec2(s.u, s.v);
+                const vec2 p = pinholeOf(vec2(s.x, s.y), vec2(s.u, s.v), s.slope);
                 if (!std::isfinite(radius) || !std::isfinite(p.x + p.y)) continue;
                 // A point of the frame that is spread so far has neighbours spread as far.
                 if (p.x < float(frame.x0) || p.x > float(frame.x1)) continue;

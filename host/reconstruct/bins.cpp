@@ -2,26 +2,13 @@
 
 #include "base/parallel.h"
 #include "base/sort.h"
+#include "reconstruct/kernels.h"
 #include "reconstruct/occlusion.h"
 
 #include <algorithm>
 
 namespace slant {
 namespace {
-
-/// Sort key of a sample: bucket, row and column of its brick, then its cell in the brick. As lib/grid.glsl.
-uint sortKey(const GridLayout& grid, vec2 p, float slope) {
-    const ivec2 cells = grid.brickCount * grid.cellsPerBrick;
-    const vec2 place = glm::clamp(glm::floor((p - grid.origin) * grid.invCell), vec2(0), vec2(cells - 1));
-    const ivec2 cell = ivec2(place);
-    const ivec2 brick = cell / grid.cellsPerBrick;
-    const ivec2 inside = cell - brick * grid.cellsPerBrick;
-    const float steps = glm::floor((slope - grid.slopeMin) * grid.invBucket);
-    const int bucket = int(glm::clamp(steps, 0.f, float(grid.bucketCount - 1)));
-    const int key = (bucket * grid.brickCount.y + brick.y) * grid.brickCount.x + brick.x;
-    return (uint(key) * uint(grid.cellsPerBrick) + uint(inside.y)) * uint(grid.cellsPerBrick) +
-           uint(inside.x);
-}
 
 /// Binned samples by key, and those of one key by index.
 struct Order {

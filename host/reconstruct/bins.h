@@ -6,17 +6,6 @@
 
 namespace slant {
 
-inline ivec2 firstCell(const Brick& brick) {
-    return ivec2(brick.firstCell & 0xffffu, brick.firstCell >> 16);
-}
-inline ivec2 lastCell(const Brick& brick) {
-    return firstCell(brick) + ivec2(brick.extent & 63u, brick.extent >> 6 & 63u);
-}
-/// Over R.
-inline float widestRadius(const Brick& brick) {
-    return float(brick.extent >> 12) * (1.f / kRadiusSteps);
-}
-
 struct Bins {
     GridLayout grid{};
     std::vector<Brick> bricks;   ///< occupied bricks, ascending in (bucket, row, column)

@@ -1,10 +1,10 @@
 #include "reconstruct/density.h"
 
 #include "base/parallel.h"
+#include "reconstruct/kernels.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <mutex>
 
 namespace slant {
@@ -22,10 +22,10 @@ std::vector<uint> summedCounts(const LightField& field) {
 }
 
 float leastAround(std::span<const LightFieldSample> samples, const SampleDensity& density) {
-    float least = std::numeric_limits<float>::infinity();
+    float least = kInfinity;
     std::mutex mutex;
     parallelFor(0, samples.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
-        float local = std::numeric_limits<float>::infinity();
+        float local = kInfinity;
         for (std::size_t i = first; i < last; ++i) {
             const LightFieldSample& s = samples[i];
             if (std::isfinite(s.slope))
@@ -54,24 +54,24 @@ SampleDensity densityOf(const SceneSideSamples& samples) {
     return density;
 }
 
+namespace {
+
+struct DensityKernels {
+    const uint* sums;
+
+    uint sumAt(uint i) const { return sums[i]; }
+#include "lib/density.glsl"
+};
+
+} // namespace
+
 float samplesAround(const SampleDensity& density, vec2 p, float slope) {
-    const DensityLayout& layout = density.layout;
-    if (layout.size.x == 0) return density.typical;
-    const float halfPx = glm::max(kHalfSquareOfDisc * glm::abs(slope), kMinHalfPx);
-    const vec2 place = p - vec2(layout.origin), size = vec2(layout.size);
-    const vec2 low = glm::clamp(glm::floor(place - halfPx + 0.5f), vec2(0), size - 1.f);
-    const vec2 high = glm::clamp(glm::floor(place + halfPx + 0.5f), low + 1.f, size);
-    const auto sumTo = [&](float x, float y) {
-        return density.sums[std::size_t(y) * std::size_t(layout.size.x + 1) + std::size_t(x)];
-    };
-    const uint count =
-        (sumTo(high.x, high.y) - sumTo(low.x, high.y)) - (sumTo(high.x, low.y) - sumTo(low.x, low.y));
-    return glm::max(float(count) / ((high.x - low.x) * (high.y - low.y)), kMinDensity);
+    if (density.layout.size.x == 0) return density.typical;
+    return DensityKernels{density.sums.data()}.samplesAround(density.layout, p, slope);
 }
 
 float radiusRatioAt(const SampleDensity& density, vec2 p, float slope, float radiusPx) {
-    if (density.layout.size.x == 0) return 1;
-    return glm::max(glm::sqrt(samplesAround(density, p, slope)) * (radiusPx / kSearchRadius), 1.f);
+    return DensityKernels{density.sums.data()}.radiusRatioAt(density.layout, p, slope, radiusPx);
 }
 
 } // namespace slant

@@ -13,11 +13,6 @@
 
 namespace slant {
 
-/// Pinhole position of a sample.
-inline vec2 pinholePosition(const LightFieldSample& s) {
-    return vec2(s.x, s.y) - s.slope * vec2(s.u, s.v);
-}
-
 struct SampleDensity {
     DensityLayout layout{};
     std::vector<uint> sums{0}; ///< modulo 2^32; one texel without use where all pixels have as many
@@ -27,10 +22,10 @@ struct SampleDensity {
 
 SampleDensity densityOf(const SceneSideSamples& samples);
 
-/// Samples a pixel. As lib/density.glsl.
+/// Samples a pixel.
 float samplesAround(const SampleDensity& density, vec2 p, float slope);
 
-/// R over the own radius of a sample: 1 where all pixels have as many, and never less. As lib/density.glsl.
+/// R over the own radius of a sample: 1 where all pixels have as many, and never less.
 float radiusRatioAt(const SampleDensity& density, vec2 p, float slope, float radiusPx);
 
 } // namespace slant

@@ -1,7 +1,7 @@
 #include "reconstruct/film_buffer.h"
 
 #include "base/parallel.h"
-#include "reconstruct/hash.h"
+#include "reconstruct/kernels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,18 +9,12 @@
 namespace slant {
 namespace {
 
-/// Weight of a sample at subpixel q of the pixel `offset` pixels away, along one axis. As
-/// film_spread.comp.
-float axisWeight(const FilterTable& filter, int axis, int offset, int q) {
-    const int k = offset * kSubpixels + q - kSubpixels / 2;
-    const int index = k >= 0 ? k : -k - 1;
-    if (index >= filter.length[axis]) return 0;
-    return filter.weights[std::size_t(axis == 0 ? index : filter.length[0] + index)];
-}
+struct FilmKernels {
+    const FilterTable& filter;
 
-vec4 weighted(const vec4& sample, float weight) {
-    return vec4(weight * sample.x, weight * sample.y, weight * sample.z, weight);
-}
+    float filterWeightAt(int i) const { return filter.weights[std::size_t(i)]; }
+#include "lib/film.glsl"
+};
 
 /// Weight of a sample that stands for all places in the pixel `offset` pixels away.
 float meanWeight(const FilterTable& filter, ivec2 offset) {
@@ -32,8 +26,9 @@ float meanWeight(const FilterTable& filter, ivec2 offset) {
 /// away.
 void addGroup(vec4& sum, const FilterTable& filter, const vec4* sample, std::size_t plane, int size,
               ivec2 offset) {
+    FilmKernels kernels{filter};
     if (sample->w == kWholePixel) {
-        sum += weighted(*sample, float(size) * meanWeight(filter, offset));
+        sum += kernels.weighted(*sample, float(size) * meanWeight(filter, offset));
         return;
     }
     int leftOut = 0;
@@ -43,8 +38,9 @@ void addGroup(vec4& sum, const FilterTable& filter, const vec4* sample, std::siz
         const vec4& own = sample[std::size_t(k) * plane];
         if (own.w < 0) continue;
         const int code = int(own.w);
-        sum += weighted(own, scale * (axisWeight(filter, 0, offset.x, code / kSubpixels) *
-                                      axisWeight(filter, 1, offset.y, code % kSubpixels)));
+        sum += kernels.weighted(
+            own, scale * (kernels.axisWeight(0, filter.length.x, offset.x, code / kSubpixels) *
+                          kernels.axisWeight(filter.length.x, filter.length.y, offset.y, code % kSubpixels)));
     }
 }
 

@@ -1,16 +1,15 @@
 #include "reconstruct/grid.h"
 
 #include "base/parallel.h"
+#include "reconstruct/kernels.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <mutex>
 
 namespace slant {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// Flat between 0.5 and 1.4 on lavapipe.
 constexpr float kCellPerRadius = 0.7f;
 constexpr float kBrickPx = 16;
@@ -70,11 +69,8 @@ float marginPx(const BinScope& scope, const SampleDensity& density) {
 }
 
 bool reaches(const LightFieldSample& s, const Rect& region, float marginPx) {
-    if (!std::isfinite(s.slope)) return false;
-    const vec2 p = pinholePosition(s);
-    const float reach = std::abs(s.slope) + marginPx;
-    return p.x + reach >= float(region.x0) && p.x - reach <= float(region.x1) &&
-           p.y + reach >= float(region.y0) && p.y - reach <= float(region.y1);
+    return reaches(pinholePosition(s), s.slope, vec2(float(region.x0), float(region.y0)),
+                   vec2(float(region.x1), float(region.y1)), marginPx);
 }
 
 float largestSlope(const GridLayout& grid) {

@@ -25,8 +25,6 @@ struct BinScope {
 /// The margin to give `reaches`: widestSearchPx, or infinity.
 float marginPx(const BinScope& scope, const SampleDensity& density);
 
-constexpr float kFarPx = 1e9f; ///< further than any sample that can be seen
-
 /// Whether any output in `region` can come to use this sample (false for disabled samples).
 bool reaches(const LightFieldSample& sample, const Rect& region, float marginPx);
 

@@ -2,25 +2,16 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "reconstruct/surface.h"
+#include "lib/map_reduce.glsl"
+#include "reconstruct/bin_fetches.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace slant {
 namespace {
 
 /// Wider margins take more memory and time than they save.
 constexpr float kMaxReachPx = 128;
-
-/// Adds a layer to a texel that has room for it. What has nothing before or behind it fills the texel.
-void close(MapTexel& texel, const Surface& surface, float fullWeight, bool last) {
-    if (!(surface.innerWeight > 0)) return;
-    const bool full = (last && texel.count == 0) || isSolid(surface, fullWeight);
-    const float coverage = full ? 1.f : glm::min(surface.innerWeight / fullWeight, 1.f);
-    texel.layers[std::size_t(texel.count++)] = {surface.innerSum / surface.innerWeight, coverage,
-                                                surface.slopeSum / surface.innerWeight};
-}
 
 /// Down or up to a multiple of kMapAlignPx.
 ivec2 aligned(vec2 px, bool up) {
@@ -106,31 +97,26 @@ vec2 texelCenter(const MapLayout& map, ivec2 texel) {
 
 namespace {
 
+struct MapSweepKernels : BinFetches {
+    using LayerTexel = MapTexel;
+
+    static LayerTexel noLayers() { return {}; }
+    static void keepLayer(vec3 rgb, float coverage, float slope, const SlopeCode&, LayerTexel& texel) {
+        texel.layers[std::size_t(texel.count++)] = {rgb, coverage, slope};
+    }
+#include "lib/map_sweep.glsl"
+#include "lib/search.glsl"
+};
+
 /// The layers of the samples within `searchRadius`.
 MapTexel resolveWithin(const SearchContext& context, const MapLayout& map, ivec2 place, float searchRadius) {
     const GridLayout& grid = context.bins.grid;
-    const float radius = map.tentPx;
-    const float widening = radius / grid.radiusPx;
-    const float fullWeight = kFullWeight * widening * widening;
-    MapTexel texel;
-    Surface surface;
-    const float maxRadiusRatio = radius * float(map.texelsPerPixel);
-    const auto visit = [&](Candidate candidate) {
-        if (surface.count > 0 && candidate.slope > surface.slopeMax + grid.surfaceGap) {
-            close(texel, surface, fullWeight, false);
-            surface = Surface{};
-            if (texel.count == kMapLayers) return false;
-        }
-        // Where own radii are less than the tent's, there are more samples in it than it takes.
-        const float widened = glm::min(candidate.value.w, maxRadiusRatio) / candidate.value.w;
-        candidate.weight *= widened * widened;
-        addSample(surface, candidate, radius);
-        return true;
-    };
-    forEachCandidate(context, Output{texelCenter(map, place), vec2(0), 0, 0}, searchRadius, maxRadiusRatio,
-                     visit, [](const Brick&) { return false; });
-    if (surface.count > 0) close(texel, surface, fullWeight, true);
-    return texel;
+    MapSweepKernels kernels{{context}};
+    MapSweepKernels::Sweep sweep = kernels.newSweep(grid, map.tentPx, float(map.texelsPerPixel), map.code);
+    kernels.forEachCandidate(grid, outputOnFilm(texelCenter(map, place), vec2(0), 0, 0), searchRadius,
+                             sweep.maxRadiusRatio, 0, kernels.listLength(), sweep);
+    if (sweep.surface.count > 0) kernels.close(sweep, true);
+    return sweep.texel;
 }
 
 } // namespace
@@ -140,52 +126,6 @@ MapTexel resolveTexel(const SearchContext& context, const MapLayout& map, ivec2 
     return found.count > 1 ? resolveWithin(context, map, texel, 2 * map.tentPx) : found;
 }
 
-namespace {
-
-/// The layers of the four texels below one, those that are there.
-using Children = std::array<MapLayer, 4 * kMapLayers>;
-
-float leastAbove(const Children& children, float slope) {
-    float least = kNoLayer;
-    for (const MapLayer& child : children)
-        if (child.slope > slope) least = glm::min(least, child.slope);
-    return least;
-}
-
-/// The layers of all children within [begin, end] as one; false when there are none left.
-bool nextLayer(const Children& children, float gap, float& begin, float& end) {
-    begin = end = leastAbove(children, end);
-    if (begin >= kNoLayer) return false;
-    for (std::size_t i = 0; i < children.size(); ++i) {
-        const float next = leastAbove(children, end);
-        if (next > end + gap) break;
-        end = next;
-    }
-    return true;
-}
-
-MapLayer merged(const Children& children, float begin, float end) {
-    vec3 sum(0);
-    float coverage = 0, slopeSum = 0;
-    for (const MapLayer& child : children) {
-        if (!(child.slope >= begin && child.slope <= end)) continue;
-        sum += child.coverage * child.rgb;
-        coverage += child.coverage;
-        slopeSum += child.coverage * child.slope;
-    }
-    return {sum / coverage, glm::min(0.25f * coverage, 1.f), slopeSum / coverage};
-}
-
-MapTexel merge(const Children& children, float gap) {
-    MapTexel texel;
-    float begin = 0, end = -std::numeric_limits<float>::infinity();
-    while (texel.count < kMapLayers && nextLayer(children, gap, begin, end))
-        texel.layers[std::size_t(texel.count++)] = merged(children, begin, end);
-    return texel;
-}
-
-} // namespace
-
 void reduceLevel(LayerMap& map, int level) {
     const MapLayout& layout = map.layout;
     const ivec2 below = levelSize(layout, level - 1), size = levelSize(layout, level);
@@ -194,14 +134,13 @@ void reduceLevel(LayerMap& map, int level) {
         for (int y = int(first); y < int(last); ++y)
             for (int x = 0; x < size.x; ++x) {
                 Children children;
-                for (std::size_t i = 0; i < 4; ++i) {
-                    const std::size_t column = 2 * std::size_t(x) + i % 2, row = 2 * std::size_t(y) + i / 2;
-                    const MapTexel child =
-                        unpackTexel(map.texels[source + row * below.x + column], layout.code);
-                    std::copy(child.layers.begin(), child.layers.end(), &children[i * kMapLayers]);
+                for (int i = 0; i < 4; ++i) {
+                    const std::size_t column = 2 * std::size_t(x) + std::size_t(i % 2),
+                                      row = 2 * std::size_t(y) + std::size_t(i / 2);
+                    setChild(children, i, map.texels[source + row * below.x + column], layout.code);
                 }
                 map.texels[target + std::size_t(y) * size.x + x] =
-                    packTexel(merge(children, layout.surfaceGap), layout.code);
+                    reduced(children, layout.surfaceGap, layout.code);
             }
     });
 }

@@ -36,8 +36,7 @@ std::size_t levelBegin(const MapLayout& map, int level);
 /// Pinhole position of a texel of level 0.
 vec2 texelCenter(const MapLayout& map, ivec2 texel);
 
-/// The surfaces around the middle of a texel of level 0, a tent over map.tentPx; where there are several,
-/// told apart by the samples within twice that, as resolveVisibility does.
+/// The surfaces around the middle of a texel of level 0 (shaders/lib/map_sweep.glsl).
 MapTexel resolveTexel(const SearchContext& context, const MapLayout& map, ivec2 texel);
 
 /// The map's texels as outputs through the lens centre, for lists.

@@ -1,17 +1,16 @@
 #include "reconstruct/lens_tiles.h"
 
 #include "base/parallel.h"
+#include "reconstruct/kernels.h"
 #include "reconstruct/plan.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <mutex>
 
 namespace slant {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// Lens positions along one side of a group's part of the square, and places along one side of a tile.
 constexpr int kLensSteps = 3, kTileSteps = 2;
 /// Between the places that are looked at the map is curved: this much of what they span, and a pixel.
@@ -38,9 +37,10 @@ std::vector<Output> placesOf(const LensMap& lens, const OutputPattern& pattern, 
         const vec2 uv = pattern.aperture.at(glm::mix(cells.min, cells.max, part));
         for (int k = 0; k < kTileSteps * kTileSteps; ++k) {
             const vec2 step = vec2(float(k % kTileSteps), float(k / kTileSteps)) / float(kTileSteps - 1);
-            Output output{corner + step * float(kTileSize), pattern.lensScale * uv, 0, 0};
-            if (!(lens.at(output.xy, output.uv).openShare > 0)) continue;
-            toSceneSide(lens, output);
+            Output output = outputOnFilm(corner + step * float(kTileSize), pattern.lensScale * uv, 0, 0);
+            const SceneRay ray = lens.at(output.xy, output.uv);
+            if (!(ray.openShare > 0)) continue;
+            toSceneSide(output, ray);
             places.push_back(output);
         }
     }
@@ -57,7 +57,7 @@ float slopeAt(const GridLayout& grid, int k) {
 Interval intervalOf(const std::vector<Output>& places, float slope, float marginPx) {
     Interval seen;
     for (const Output& output : places) {
-        const vec2 p = output.xy - slope * output.uv, margin = (marginPx + kBulgePx) * output.extent;
+        const vec2 p = pinholeOf(output.xy, output.uv, slope), margin = (marginPx + kBulgePx) * output.extent;
         seen.add(p - margin, p + margin);
     }
     const vec2 bulge = kBulge * glm::max(seen.high - seen.low, vec2(0));
@@ -112,60 +112,19 @@ std::vector<float> lensTileBounds(const LensMap& lens, const OutputPattern& patt
 
 namespace {
 
-/// Bounds of a group, interpolated at the ends of a brick's slopes.
-struct BoundsAt {
-    std::span<const float> bounds;
-    int first, last;      ///< blocks of the slopes below
-    float part, lastPart; ///< towards the next ones
-    int step;             ///< from a slope to the next
+struct LensTileKernels {
+    const float* bounds;
 
-    float at(int begin, float t, int i) const {
-        const float a = bounds[std::size_t(begin + i)];
-        return a + t * (bounds[std::size_t(begin + step + i)] - a);
-    }
-    float low(int i) const { return glm::min(at(first, part, i), at(last, lastPart, i)); }
-    float high(int i) const { return glm::max(at(first, part, i), at(last, lastPart, i)); }
+    float lensTileBoundAt(int i) const { return bounds[i]; }
+#include "lib/lens_tiles.glsl"
 };
-
-/// The tiles [x, y) of `count` whose bounds, from `offset` on, meet [from, to].
-ivec2 meeting(const BoundsAt& bounds, int offset, int count, float from, float to) {
-    ivec2 range(0);
-    for (int end = count; range.x < end;) {
-        const int middle = (range.x + end) / 2;
-        if (bounds.high(offset + count + middle) >= from)
-            end = middle;
-        else
-            range.x = middle + 1;
-    }
-    for (int end = count; range.y < end;) {
-        const int middle = (range.y + end) / 2;
-        if (bounds.low(offset + middle) > to)
-            end = middle;
-        else
-            range.y = middle + 1;
-    }
-    return range;
-}
 
 } // namespace
 
 TileRange tilesOfCompoundLens(const Brick& brick, const GridLayout& grid, const OutputLayout& layout,
                               std::span<const float> bounds, std::size_t group) {
-    const float steps = float(kLensTileSlopes - 1) * grid.invBucket / float(grid.bucketCount);
-    const float from = (brick.slopeMin - grid.slopeMin) * steps,
-                to = (brick.slopeMax - grid.slopeMin) * steps;
-    // Beyond the slopes of the grid nothing is known.
-    if (!(from > -0.01f && to < float(kLensTileSlopes - 1) + 0.01f)) return {ivec2(0), layout.tileCount};
-    const ivec2 tiles = layout.tileCount;
-    const int step = 2 * (tiles.x + tiles.y), begin = int(group) * kLensTileSlopes * step;
-    const int first = glm::clamp(int(from), 0, kLensTileSlopes - 2),
-              last = glm::clamp(int(to), 0, kLensTileSlopes - 2);
-    const BoundsAt at{
-        bounds, begin + first * step, begin + last * step, from - float(first), to - float(last), step};
-    const BrickBox box = boxOf(brick, grid);
-    const ivec2 columns = meeting(at, 0, tiles.x, box.low.x, box.high.x);
-    const ivec2 rows = meeting(at, 2 * tiles.x, tiles.y, box.low.y, box.high.y);
-    return {ivec2(columns.x, rows.x), ivec2(columns.y, rows.y)};
+    const ivec4 tiles = LensTileKernels{bounds.data()}.tilesOfCompoundLens(brick, grid, layout, int(group));
+    return {ivec2(tiles.x, tiles.y), ivec2(tiles.z, tiles.w)};
 }
 
 Rect searchRegionOf(const SceneSideSamples& source, const FilterTable& filter) {

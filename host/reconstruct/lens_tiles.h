@@ -17,8 +17,7 @@ std::vector<float> lensTileBounds(const LensMap& lens, const OutputPattern& patt
                                   std::size_t groupCount, const GridLayout& grid, const OutputLayout& layout,
                                   float marginPx);
 
-/// Tiles whose outputs in a group, counted from the first of `bounds`, can see a sample of `brick`. As
-/// lib/lens_tiles.glsl.
+/// Tiles whose outputs in a group, counted from the first of `bounds`, can see a sample of `brick`.
 TileRange tilesOfCompoundLens(const Brick& brick, const GridLayout& grid, const OutputLayout& layout,
                               std::span<const float> bounds, std::size_t group);
 

@@ -25,7 +25,7 @@ std::vector<uint> countStopped(std::span<const LightFieldSample> samples, const 
                                const OcclusionLayout& layout);
 
 /// 1 / (part of the lens from which a sample at pinhole position p is visible), at most 1 / kMinVisible;
-/// `radiusRatio` as radiusRatioAt. As lib/occlusion.glsl.
+/// `radiusRatio` as radiusRatioAt.
 float visibilityWeight(std::span<const uint> stopped, const GridLayout& grid, const OcclusionLayout& layout,
                        vec2 p, float slope, float radiusRatio);
 

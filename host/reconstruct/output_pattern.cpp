@@ -1,7 +1,7 @@
 #include "reconstruct/output_pattern.h"
 
 #include "base/error.h"
-#include "reconstruct/hash.h"
+#include "reconstruct/kernels.h"
 
 #include <algorithm>
 #include <bit>
@@ -10,14 +10,6 @@
 
 namespace slant {
 namespace {
-
-uint reverseBits(uint x) {
-    x = (x >> 16) | (x << 16);
-    x = ((x & 0xff00ff00u) >> 8) | ((x & 0x00ff00ffu) << 8);
-    x = ((x & 0xf0f0f0f0u) >> 4) | ((x & 0x0f0f0f0fu) << 4);
-    x = ((x & 0xccccccccu) >> 2) | ((x & 0x33333333u) << 2);
-    return ((x & 0xaaaaaaaau) >> 1) | ((x & 0x55555555u) << 1);
-}
 
 /// Direction numbers of one Sobol' dimension from its primitive polynomial (degree, inner coefficients) and
 /// first numbers m (Joe and Kuo 2008, new-joe-kuo-6); degree 0 is the van der Corput sequence.
@@ -74,17 +66,6 @@ int groupBitsFor(int outputsPerPixel, float slopePx) {
     return bits;
 }
 
-/// Nested uniform scramble of bit-reversed x (Laine and Karras 2011; constants of Burley 2020, listing 1).
-uint owenScramble(uint reversed, uint seed) {
-    uint x = reversed;
-    x ^= x * 0x3d20adeau;
-    x += seed;
-    x *= (seed >> 16) | 1u;
-    x ^= x * 0x05526c56u;
-    x ^= x * 0x53a22864u;
-    return reverseBits(x);
-}
-
 /// Outputs a pixel that are enough where all see the same: what they integrate is the pixel alone.
 constexpr int kSparseOutputBits = 5;
 
@@ -104,8 +85,8 @@ std::vector<SequenceEntry> lensSequence(int bits) {
         const uint column = columnBits ? sobol(lensX, i) >> (32 - columnBits) : 0;
         const uint row = rowBits ? sobol(lensY, i) >> (32 - rowBits) : 0;
         sequence.push_back({i,
-                            {reverseBits(sobol(pixelX, i)), reverseBits(sobol(pixelY, i)),
-                             reverseBits(sobol(time, i)), column | row << 16}});
+                            {bitfieldReverse(sobol(pixelX, i)), bitfieldReverse(sobol(pixelY, i)),
+                             bitfieldReverse(sobol(time, i)), column | row << 16}});
     }
     return sequence;
 }
@@ -145,31 +126,24 @@ OutputPattern makeOutputPattern(int outputsPerPixel, float slopePx, float lensSc
     return pattern;
 }
 
+namespace {
+
+struct PatternKernels {
+    const Aperture& aperture;
+
+    vec2 lensPosition(vec2 square) const { return aperture.at(square); }
+#include "lib/output_pattern.glsl"
+};
+
+} // namespace
+
 Output outputAt(ivec2 pixel, int output, const OutputPattern& pattern, uint seed) {
-    const glm::uvec4& entry = pattern.entries[std::size_t(output)];
-    const uint pixelSeed = hash(uint(pixel.x) + hash(uint(pixel.y) + hash(seed)));
-    const uint qx = owenScramble(entry.x, hash(pixelSeed ^ 0xa511e9b3u)) >> 20;
-    const uint qy = owenScramble(entry.y, hash(pixelSeed ^ 0x63d83595u)) >> 20;
-    const uint qt = owenScramble(entry.z, hash(pixelSeed ^ 0x9e3779b9u)) >> 8;
-    const uint jitter = hash(pixelSeed + uint(output) * 0x9e3779b9u);
-    const vec2 cell =
-        vec2(lensCell(entry)) + (vec2(float(jitter & 0xffffu), float(jitter >> 16)) + 0.5f) * (1.f / 65536.f);
-    Output o;
-    o.xy = vec2(pixel) + (vec2(float(qx), float(qy)) + 0.5f) * (1.f / float(kSubpixels));
-    o.uv = pattern.lensScale * pattern.aperture.at(cell * (2.f / vec2(pattern.lensCells)) - 1.f);
-    o.t = float(qt) * (1.f / 16777216.f);
-    o.positionCode = float(qx * uint(kSubpixels) + qy);
-    return o;
+    return PatternKernels{pattern.aperture}.outputAt(pixel, output, pattern.entries[std::size_t(output)],
+                                                     pattern.lensCells, pattern.lensScale, seed);
 }
 
 void toSceneSide(const LensMap& lens, Output& output) {
-    const SceneRay place = lens.at(output.xy, output.uv);
-    output.compoundLens = true;
-    output.xy = place.xy;
-    output.uv = place.uv;
-    output.weight = place.weight;
-    output.filmMetric = place.filmMetric;
-    output.extent = place.extent;
+    toSceneSide(output, lens.at(output.xy, output.uv));
 }
 
 } // namespace slant

@@ -3,10 +3,11 @@
 // The lens is cut into M cells, one an output, so that output m of every pixel lies in the same small part of
 // the lens and a tile of pixels can share its search; within the cell it is jittered from pixel to pixel.
 // The pixel position and the time come from a Sobol' sequence whose first two dimensions gave the lens cell,
-// Owen-scrambled for each pixel. All of it is integer arithmetic and exact in GLSL too.
+// Owen-scrambled for each pixel. All of it is integer arithmetic, and exact.
 #pragma once
 #include "camera/aperture.h"
 #include "camera/lens_map.h"
+#include "shared/output.h"
 #include "shared/reconstruct.h"
 
 #include <bit>
@@ -39,45 +40,14 @@ constexpr bool isOutputCount(int outputsPerPixel) {
            std::has_single_bit(unsigned(outputsPerPixel));
 }
 
-/// Lens cell of an entry: column, row.
-inline glm::uvec2 lensCell(const glm::uvec4& entry) {
-    return {entry.w & 255u, entry.w >> 16};
-}
-
-/// Which output of a group comes in the place of this one in the group's order.
-inline int inOrder(const glm::uvec4& entry) {
-    return int(entry.w >> 8 & 255u);
-}
-
 /// Groups are of up to kMaxGroupSize outputs, fewer where `slopePx`, the largest slope to either side, would
 /// spread them over the picture. Throws Error(usage) unless isOutputCount(outputsPerPixel).
 OutputPattern makeOutputPattern(int outputsPerPixel, float slopePx, float lensScale = 1,
                                 Aperture aperture = {});
 
-/// One output: where it lies in pixel, lens and time.
-struct Output {
-    vec2 xy; ///< raster position
-    vec2 uv; ///< in the disc of radius lensScale, where the aperture is open
-    float t;
-    float positionCode; ///< place in its pixel: qx * kSubpixels + qy, exact in a float
-
-    // Set by toSceneSide.
-    bool compoundLens = false;
-    float weight = 1; ///< of the radiance
-    vec3 filmMetric{1, 0, 1};
-    vec2 extent{1};
-};
-
 /// Takes an output of the film to the scene's side of a lens, where samples are searched (camera/lens_map.h).
 void toSceneSide(const LensMap& lens, Output& output);
 
-/// From a distance on the scene's side to one on the film.
-inline vec2 onFilm(const Output& output, vec2 offset) {
-    const vec3& m = output.filmMetric;
-    return vec2(m.x * offset.x + m.y * offset.y, m.y * offset.x + m.z * offset.y);
-}
-
-/// The same arithmetic as lib/output_pattern.glsl.
 Output outputAt(ivec2 pixel, int output, const OutputPattern& pattern, uint seed);
 
 } // namespace slant

@@ -1,5 +1,4 @@
-// One output against the bins: the inner loop of the reconstruction, as clear as it can be. The compute
-// path's lib/search.glsl and lib/surfaces.glsl have the same names and the same order of operations.
+// One output against the bins: the inner loop of the reconstruction.
 #pragma once
 #include "reconstruct/candidates.h"
 
@@ -17,16 +16,11 @@ struct Reconstructed {
     int iterations = 0; ///< loop steps taken; beyond kMaxLoopIterations compute leaves the output to the CPU
 };
 
-/// The front-most apparent surface within R, tent-filtered, where it is the only one or its samples surround
-/// the output. Anything else needs resolveVisibility.
+/// By the front-most apparent surface within R (shaders/lib/nearest.glsl). What needs more needs
+/// resolveVisibility.
 Reconstructed reconstructNearest(const SearchContext& context, const Output& output);
 
-/// Splits the samples within twice `baseRadius` into apparent surfaces and lays them over one another, front
-/// to back: one that surrounds the output hides the rest, another covers as much as its samples are many, and
-/// the last is taken as it is. After Lehtinen et al. 2011, section 4, but that surfaces are split at gaps in
-/// slope instead of at pairwise crossings (bricks come front to back, so one sweep finds them without storing
-/// candidates, and there is no limit on their number), and that a surface which does not cover the output is
-/// not dropped but weighed by its density, so that small and thin things keep their brightness.
+/// By all apparent surfaces within twice `baseRadius` (shaders/lib/visibility.glsl).
 Reconstructed resolveVisibility(const SearchContext& context, const Output& output, float baseRadius);
 
 } // namespace slant

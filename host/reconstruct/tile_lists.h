@@ -16,14 +16,8 @@ struct TileLists {
     std::vector<uint> bricks;
 };
 
-/// Pinhole positions of its samples; those of the rim reach to kFarPx.
-struct BrickBox {
-    vec2 low, high;
-};
-BrickBox boxOf(const Brick& brick, const GridLayout& grid);
-
 /// Tiles whose outputs, through the lens positions of `box`, can see a sample of `brick` within marginPx:
-/// half-open, in tiles, clipped to the layout; empty where last <= first. As lib/grid.glsl.
+/// half-open, in tiles, clipped to the layout; empty where last <= first.
 struct TileRange {
     ivec2 first, last;
     bool empty() const { return last.x <= first.x || last.y <= first.y; }

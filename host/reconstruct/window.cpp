@@ -2,16 +2,14 @@
 
 #include "base/parallel.h"
 #include "reconstruct/density.h"
-#include "reconstruct/hull.h"
+#include "reconstruct/kernels.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace slant {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// A pinhole position that no output is near to.
 constexpr float kNowherePx = 1e18f;
 
@@ -20,71 +18,23 @@ float spacingPx(float samplesPerPixel) {
     return 1 / std::sqrt(samplesPerPixel);
 }
 
-/// What is known of an apparent surface.
-struct WindowSurface {
-    int count = 0;
-    vec3 sum{0};
-    float weightSum = 0;
-    Hull hull;
+struct WindowKernels {
+    const WindowSamples& samples;
+    std::vector<WindowCandidate>& kept;
+
+    const vec4& positionAt(uint record) const { return samples.positions[record]; }
+    const vec4& valueAt(uint record) const { return samples.values[record]; }
+    uint pixelStartAt(int pixel) const { return samples.pixelStart[std::size_t(pixel)]; }
+    void keepCandidate(int, const WindowCandidate& candidate) { kept.push_back(candidate); }
+    const WindowCandidate& keptCandidate(int place, const Output&) const { return kept[std::size_t(place)]; }
+    void sortCandidates(int) {
+        std::stable_sort(kept.begin(), kept.end(),
+                         [](const auto& left, const auto& right) { return left.slope < right.slope; });
+    }
+#include "lib/window.glsl"
 };
 
-void addSample(WindowSurface& surface, const WindowCandidate& candidate, const vec3& rgb, float alpha) {
-    const float weight = expOfMinus(glm::min(alpha * candidate.distance2, kMaxExponent));
-    surface.count += 1;
-    surface.sum += weight * rgb;
-    surface.weightSum += weight;
-    addPoint(surface.hull, candidate.offset);
-}
-
-/// Whether two trajectories have the same order, in x and in y, a lens step to either side.
-bool sameSurface(const WindowCandidate& a, const WindowCandidate& b, float lensStep) {
-    const vec2 apart = a.offset - b.offset;
-    const float shear = (a.slope - b.slope) * lensStep;
-    return (apart.x + shear > 0) == (apart.x - shear > 0) && (apart.y + shear > 0) == (apart.y - shear > 0);
-}
-
-/// Samples of the window that reproject to within the radius, front to back, in the order of samples where
-/// slopes are equal. Returns the nearest sample of the whole window, an index past the last if there is none.
-std::size_t collect(const WindowSamples& samples, const WindowSearch& search, ivec2 pixel,
-                    const Output& output, std::vector<WindowCandidate>& found) {
-    found.clear();
-    std::size_t nearest = samples.positions.size();
-    float nearest2 = kInfinity;
-    const ivec2 center = pixel - search.boundsOrigin;
-    const ivec2 first = glm::max(center - search.rangePx, ivec2(0));
-    const ivec2 last = glm::min(center + search.rangePx, search.boundsSize - 1);
-    for (int y = first.y; y <= last.y; ++y) {
-        const std::size_t row = std::size_t(y) * std::size_t(search.boundsSize.x);
-        if (last.x < first.x) break;
-        const uint begin = samples.pixelStart[row + std::size_t(first.x)];
-        const uint end = samples.pixelStart[row + std::size_t(last.x) + 1];
-        for (uint record = begin; record < end; ++record) {
-            const vec4& position = samples.positions[record];
-            vec2 offset = vec2(position.x, position.y) + position.z * output.uv - output.xy;
-            if (output.compoundLens) offset = onFilm(output, offset);
-            const float distance2 = offset.x * offset.x + offset.y * offset.y;
-            if (distance2 < nearest2) {
-                nearest2 = distance2;
-                nearest = record;
-            }
-            if (distance2 < position.w) found.push_back({offset, distance2, position.z, record});
-        }
-    }
-    std::stable_sort(found.begin(), found.end(),
-                     [](const auto& left, const auto& right) { return left.slope < right.slope; });
-    return nearest;
-}
-
 } // namespace
-
-float expOfMinus(float x) {
-    const float n = glm::floor(x * 1.44269504f + 0.5f);
-    const float r = (x - n * 0.693145752f) - n * 1.42860677e-6f;
-    const float series =
-        1.f + r * (-1.f + r * (0.5f + r * (-0.166666667f + r * (0.0416666667f + r * (-0.00833333333f +
-                                                                                     r * 0.00138888889f)))));
-    return series * std::bit_cast<float>(uint(127 - int(n)) << 23);
-}
 
 WindowSamples windowSamples(const SceneSideSamples& source, ValuePlane plane) {
     const SampleDensity density = densityOf(source);
@@ -127,28 +77,11 @@ std::uint64_t windowSteps(const LightField& field, const WindowSearch& search) {
 
 WindowResult lookThroughWindow(const WindowSamples& samples, const WindowSearch& search, ivec2 pixel,
                                const Output& output, std::vector<WindowCandidate>& scratch) {
-    const std::size_t nearest = collect(samples, search, pixel, output, scratch);
-    if (scratch.empty()) {
-        if (search.fill == 0 || nearest == samples.positions.size()) return {};
-        return {WindowOutcome::filled, vec3(samples.values[nearest])};
-    }
-    WindowSurface front, surface;
-    const WindowCandidate* previous = nullptr;
-    bool taken = false;
-    for (const WindowCandidate& candidate : scratch) {
-        if (surface.count >= kMinSurface && !sameSurface(*previous, candidate, search.lensStep)) {
-            taken = surrounds(surface.hull);
-            if (taken) break;
-            if (front.count == 0) front = surface;
-            surface = WindowSurface{};
-        }
-        addSample(surface, candidate, vec3(samples.values[candidate.record]), search.alpha);
-        previous = &candidate;
-    }
-    taken = taken || surrounds(surface.hull);
-    const bool parted = taken ? surface.count < int(scratch.size()) : front.count > 0;
-    if (!taken && front.count > 0) surface = front;
-    return {parted ? WindowOutcome::parted : WindowOutcome::found, surface.sum / surface.weightSum};
+    scratch.clear();
+    WindowKernels kernels{samples, scratch};
+    const WindowKernels::WindowFinds finds = kernels.collect(search, pixel, output);
+    const WindowKernels::WindowView view = kernels.viewOf(search, finds, output);
+    return {WindowOutcome(view.outcome), view.rgb};
 }
 
 } // namespace slant

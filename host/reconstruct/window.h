@@ -30,30 +30,16 @@ WindowSearch windowSearch(const LightField& field, const WindowOptions& options)
 /// CPU.
 std::uint64_t windowSteps(const LightField& field, const WindowSearch& search);
 
-enum class WindowOutcome {
-    found,  ///< by one surface alone
-    parted, ///< surfaces had to be told apart
-    filled, ///< nothing within the radius: the nearest sample of the window
-    hole,   ///< nothing: black
-};
+/// kWindowFound and its like.
+enum class WindowOutcome { found, parted, filled, hole };
 
 struct WindowResult {
     WindowOutcome outcome = WindowOutcome::hole;
     vec3 rgb{0};
 };
 
-/// A sample within the radius, seen from the output's lens position.
-struct WindowCandidate {
-    vec2 offset; ///< from the output, pixels
-    float distance2, slope;
-    uint record;
-};
-
 /// `scratch` holds nothing between calls; it saves allocations.
 WindowResult lookThroughWindow(const WindowSamples& samples, const WindowSearch& search, ivec2 pixel,
                                const Output& output, std::vector<WindowCandidate>& scratch);
-
-/// e^-x for 0 <= x <= 80, within 3 ulp, with the bits that lib/gaussian.glsl gives.
-float expOfMinus(float x);
 
 } // namespace slant

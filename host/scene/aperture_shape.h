@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "image/image.h"
 #include "scene/position.h"
+#include "shared/aperture.h"
 
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -24,7 +25,7 @@ namespace slant {
 /// weights, every other shape one of them.
 struct ApertureShape {
     /// Sectors of the disc and rings in each, both evenly spaced: the cells of the weights.
-    static constexpr int kSectors = 512, kRings = 128;
+    static constexpr int kSectors = kApertureSectors, kRings = kApertureRings;
 
     std::string name = "disc"; ///< as above, but "image" without its weights
     /// Corners of an outline around the centre; the triangles between it and each side have the same area.

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "lib/trajectory.glsl"
 
 #include <algorithm>
 #include <array>
@@ -69,8 +70,8 @@ struct Reach {
     void add(const LightFieldSample& s, Rect frame) {
         float radius = std::abs(s.slope);
         if (!std::isfinite(radius)) return;
-        float x = s.x - s.slope * s.u, y = s.y - s.slope * s.v;
-        include({x - radius, y - radius}, {x + radius, y + radius}, frame);
+        const vec2 p = pinholeOf(vec2(s.x, s.y), vec2(s.u, s.v), s.slope);
+        include(p - radius, p + radius, frame);
     }
     /// Through a lens: where the sample's point is seen from the rim of its pupil.
     void add(const LightFieldSample& s, Rect frame, const LensMap& lens) {

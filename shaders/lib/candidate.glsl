@@ -1,33 +1,39 @@
-// A sample seen from an output's lens position. As host/reconstruct/search.cpp.
+// A sample seen from an output's lens position, and whether samples surround an output.
 #ifndef SLANT_LIB_CANDIDATE_GLSL
 #define SLANT_LIB_CANDIDATE_GLSL
+#include "shared/kernel.h"
 
-#include "shared/reconstruct.h"
-
-#define kInfinity uintBitsToFloat(0x7f800000u)
+SLANT_SHARED_BEGIN
 
 struct Candidate {
-    vec2 offset; // from the output, pixels
+    vec2 offset;     // from the output, pixels of the film
     float distance2; // as if its own radius were that of the search
     float slope;
-    float weight; // see lib/occlusion.glsl
+    float weight;  // see lib/occlusion.glsl
     vec4 value; // rgb; R over its own radius
 };
 
-/// Whether an output lies inside the convex hull of samples.
+/// Whether a place lies inside the convex hull of points, one at a time: it does where, seen from it, those
+/// above span directions beyond those below on both sides.
 struct Hull {
-    vec2 upper; // least and greatest x/y of samples with y >= 0
+    vec2 upper; // least and greatest x/y of points with y >= 0
     vec2 lower; // ... with y < 0
 };
 
-Hull noHull() { return Hull(vec2(kInfinity, -kInfinity), vec2(kInfinity, -kInfinity)); }
+KERNEL Hull noHull() {
+    const Hull hull = {vec2(kInfinity, -kInfinity), vec2(kInfinity, -kInfinity)};
+    return hull;
+}
 
-void addPoint(inout Hull hull, vec2 offset) {
+/// `offset` is the point as seen from the place.
+KERNEL void addPoint(INOUT(Hull) hull, vec2 offset) {
     const float ratio = offset.x / offset.y;
-    const bool above = offset.y >= 0.0;
+    const bool above = offset.y >= 0.0f;
     hull.upper = above ? vec2(min(hull.upper.x, ratio), max(hull.upper.y, ratio)) : hull.upper;
     hull.lower = above ? hull.lower : vec2(min(hull.lower.x, ratio), max(hull.lower.y, ratio));
 }
 
-bool surrounds(Hull hull) { return hull.upper.y > hull.lower.x && hull.upper.x < hull.lower.y; }
+KERNEL bool surrounds(IN(Hull) hull) { return hull.upper.y > hull.lower.x && hull.upper.x < hull.lower.y; }
+
+SLANT_SHARED_END
 #endif

@@ -1,53 +1,58 @@
-// One output against the bins. As host/reconstruct/search.cpp, where it is explained.
+// The samples around an output, brick by brick: what every search of the bins is made of.
 //
-// Needs, declared before the include: positionAt(uint), valueAt(uint) and cellStartAt(uint), which read the
-// bins;
-// listedBrick(uint) and listedCellBase(uint), which read the lists; a struct Sweep with a member `bool running`;
-// visit(Candidate, inout Sweep), called for each candidate until it clears `running`; and hides(Sweep, Brick),
-// whether what was met so far hides a brick and all that follow.
-#ifndef SLANT_LIB_SEARCH_GLSL
-#define SLANT_LIB_SEARCH_GLSL
+// Needs, declared before the include: positionAt(uint), valueAt(uint) and cellStartAt(uint), which read
+// the bins; listedBrick(uint) and listedCellBase(uint), which read the lists; kMaxSteps, after which a search
+// stops; a struct Sweep with a member `bool running`; visit(Candidate, inout Sweep), called for each
+// candidate until it clears `running`; and hides(Sweep, Brick), whether what was met so far hides a brick and
+// all that follow. In C++ it is included in a struct that has these, after lib/candidate.glsl, lib/grid.glsl
+// and lib/output.glsl.
+#include "lib/candidate.glsl"
 #include "lib/grid.glsl"
 #include "lib/output.glsl"
 
-/// False where the search would have passed kMaxLoopIterations: the output must be done elsewhere.
-bool forEachCandidate(GridLayout grid, Output o, float radius, float maxRadiusRatio, uint listBegin, uint listEnd, inout Sweep sweep) {
+/// Visits the samples that reproject to within `radius` of the output, or less for those whose own radius is
+/// less than R: down to 1 / maxRadiusRatio of it. They come in the order of their bricks: front to back, up
+/// to the width of a bucket. Returns loop steps: more than kMaxSteps where it stopped at them, and the output
+/// must be done elsewhere.
+KERNEL int forEachCandidate(IN(GridLayout) grid, IN(Output) o, float radius, float maxRadiusRatio,
+                            uint listBegin, uint listEnd, INOUT(Sweep) sweep) {
     const int side = grid.cellsPerBrick;
     // In cells: where the output lies, how far its window moves with slope, and its half width.
     const vec2 center = (o.xy - grid.origin) * grid.invCell, shear = o.uv * grid.invCell;
-    int iterations = 0;
+    int steps = 0;
     for (uint entry = listBegin; entry < listEnd && sweep.running; ++entry) {
-        const Brick brick = listedBrick(entry);
-        const float ownRadius = radius * max(widestRadius(brick), 1.0 / maxRadiusRatio);
+        IN(Brick) brick = listedBrick(entry);
+        const float ownRadius = radius * max(widestRadius(brick), 1.0f / maxRadiusRatio);
         const vec2 reach = ownRadius * grid.invCell * o.extent;
-        const vec2 a = brick.slopeMin * shear, b = brick.slopeMax * shear;
-        const ivec2 first = max(cellAt(grid, center - max(a, b) - reach), firstCell(brick));
-        const ivec2 last = min(cellAt(grid, center - min(a, b) + reach), lastCell(brick));
-        ++iterations;
-        if (iterations > kMaxLoopIterations) return false;
-        if (hides(sweep, brick)) return true;
+        const Motion motion = motionAt(shear, brick.slopeMin, brick.slopeMax);
+        const ivec2 first = max(cellAt(grid, center - motion.high - reach), firstCell(brick));
+        const ivec2 last = min(cellAt(grid, center - motion.low + reach), lastCell(brick));
+        ++steps;
+        if (steps > kMaxSteps) return steps;
+        if (hides(sweep, brick)) return steps;
         if (first.x > last.x || first.y > last.y) continue;
         const uint cellBase = listedCellBase(entry);
         for (int row = first.y; row <= last.y && sweep.running; ++row) {
             const uint cell = cellBase + uint(row * side);
             const uint begin = cellStartAt(cell + uint(first.x));
             const uint end = cellStartAt(cell + uint(last.x) + 1u);
-            iterations += int(end - begin) + 1;
-            if (iterations > kMaxLoopIterations) return false;
+            steps += int(end - begin) + 1;
+            if (steps > kMaxSteps) return steps;
             for (uint record = begin; record < end && sweep.running; ++record) {
-                const vec4 position = positionAt(record);
-                vec2 offset = position.xy + position.z * o.uv - o.xy;
-                if (kCompoundLens) offset = onFilm(o, offset);
+                IN(vec4) position = positionAt(record);
+                const Trajectory trajectory = {vec2(position), position.z};
+                vec2 offset = seenFrom(trajectory, o.uv) - o.xy;
+                if (o.onSceneSide) offset = onFilm(o, offset);
                 const float distance2 = offset.x * offset.x + offset.y * offset.y;
                 if (!(distance2 < ownRadius * ownRadius)) continue;
-                const vec4 value = valueAt(record);
+                IN(vec4) value = valueAt(record);
                 const float radiusRatio = min(value.w, maxRadiusRatio);
                 const float scaled2 = distance2 * (radiusRatio * radiusRatio);
-                if (scaled2 < radius * radius)
-                    visit(Candidate(offset, scaled2, position.z, position.w, value), sweep);
+                if (!(scaled2 < radius * radius)) continue;
+                const Candidate candidate = {offset, scaled2, position.z, position.w, value};
+                visit(candidate, sweep);
             }
         }
     }
-    return true;
+    return steps;
 }
-#endif

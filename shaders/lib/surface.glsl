@@ -1,25 +1,31 @@
-// Apparent surfaces around an output. As host/reconstruct/search.cpp.
+// Apparent surfaces around an output.
 #ifndef SLANT_LIB_SURFACE_GLSL
 #define SLANT_LIB_SURFACE_GLSL
 #include "lib/candidate.glsl"
+#include "shared/reconstruct.h"
 
+SLANT_SHARED_BEGIN
+
+/// What is known of an apparent surface around an output.
 struct Surface {
-    int count;
+    int count; // samples within twice the base radius
     float slopeMax;
-    float slopeSum; // with the inner weights
+    float slopeSum;          // with the inner weights
     vec3 innerSum, outerSum; // tents over the base radius and over twice that
     float innerWeight, outerWeight;
     Hull hull;
 };
 
-Surface noSurface() {
-    return Surface(0, -kInfinity, 0.0, vec3(0.0), vec3(0.0), 0.0, 0.0, noHull());
+KERNEL Surface noSurface() {
+    const Surface surface = {0, -kInfinity, 0.0f, vec3(0.0f), vec3(0.0f), 0.0f, 0.0f, noHull()};
+    return surface;
 }
 
-void addSample(inout Surface surface, Candidate candidate, float baseRadius) {
-    const vec3 rgb = candidate.value.rgb;
+KERNEL void addSample(INOUT(Surface) surface, IN(Candidate) candidate, float baseRadius) {
+    const vec3 rgb = vec3(candidate.value);
     const float distance_ = sqrt(candidate.distance2) / baseRadius;
-    const float inner = candidate.weight * max(1.0 - distance_, 0.0), outer = candidate.weight * (2.0 - distance_);
+    const float inner = candidate.weight * max(1.0f - distance_, 0.0f);
+    const float outer = candidate.weight * (2.0f - distance_);
     surface.count += 1;
     surface.slopeMax = max(surface.slopeMax, candidate.slope);
     surface.innerSum += inner * rgb;
@@ -30,7 +36,9 @@ void addSample(inout Surface surface, Candidate candidate, float baseRadius) {
     addPoint(surface.hull, candidate.offset);
 }
 
-vec3 meanOf(Surface s) { return s.innerWeight > 0.0 ? s.innerSum / s.innerWeight : s.outerSum / s.outerWeight; }
+KERNEL vec3 meanOf(IN(Surface) s) {
+    return s.innerWeight > 0.0f ? s.innerSum / s.innerWeight : s.outerSum / s.outerWeight;
+}
 
 /// Surfaces laid over one another, front to back.
 struct Layers {
@@ -38,17 +46,20 @@ struct Layers {
     float transmittance;
 };
 
-/// A surface whose samples surround the output, and as many as if it lay inside and not at the rim, hides what is
-/// behind.
-bool isSolid(Surface s, float fullWeight) {
-    const float fullOuterWeight = 8.0 * fullWeight; // tent twice as wide, and twice as high
+/// A surface whose samples surround the output, and as many as if it lay inside and not at the rim, hides
+/// what is behind.
+KERNEL bool isSolid(IN(Surface) s, float fullWeight) {
+    const float fullOuterWeight = 8.0f * fullWeight; // tent twice as wide, and twice as high
     return surrounds(s.hull) && s.outerWeight >= kSolidOuter * fullOuterWeight;
 }
 
-/// Adds a surface that has another one behind it.
-void addSurface(inout Layers layers, Surface s, float fullWeight) {
-    const float opacity = isSolid(s, fullWeight) ? 1.0 : min(s.innerWeight / fullWeight, 1.0);
-    if (opacity > 0.0) layers.rgb += layers.transmittance * opacity * meanOf(s);
-    layers.transmittance *= 1.0 - opacity;
+/// Adds a surface that has another one behind it. Where it is not solid it covers as much as its samples are
+/// many: a rim, or a thing smaller than R, keeps its area on average and so its brightness.
+KERNEL void addSurface(INOUT(Layers) layers, IN(Surface) s, float fullWeight) {
+    const float opacity = isSolid(s, fullWeight) ? 1.0f : min(s.innerWeight / fullWeight, 1.0f);
+    if (opacity > 0.0f) layers.rgb += layers.transmittance * opacity * meanOf(s);
+    layers.transmittance *= 1.0f - opacity;
 }
+
+SLANT_SHARED_END
 #endif

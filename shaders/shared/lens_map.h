@@ -15,6 +15,17 @@ SLANT_SHARED_BEGIN
 /// where rays are blocked; the share of the disc that is open for this ring; 0.
 SLANT_SHARED_CONSTANT int kLensMapHeader = 3;
 
+/// A ray on the scene's side.
+struct SceneRay {
+    vec2 xy; // on the plane in focus, pixels
+    vec2 uv; // on the entrance pupil's plane, radii
+    /// Symmetric matrix (xx, xy, yy) that turns a short way there into one on the film.
+    vec3 filmMetric;
+    vec2 extent;     // half the size of a box around all that is within a pixel of the film
+    float weight;    // irradiance of the film under radiance 1; 0: dark, no ray gets there
+    float openShare; // of the disc, from which rays get there; 0: nothing else is set
+};
+
 SLANT_SHARED_END
 
 #endif

@@ -57,6 +57,9 @@ struct GridLayout {
     uint sampleCount;  // binned samples
 };
 
+/// Further than any sample that can be seen.
+SLANT_SHARED_CONSTANT float kFarPx = 1e9f;
+
 /// The outputs: outputsPerPixel for each pixel of the region.
 struct OutputLayout {
     ivec2 regionOrigin; // pixel
@@ -74,6 +77,11 @@ struct Brick {
     float slopeMin, slopeMax;
 };
 SLANT_SHARED_CONSTANT float kRadiusSteps = 524288.0f; // 2^19
+
+/// Pinhole positions of a brick's samples.
+struct BrickBox {
+    vec2 low, high;
+};
 
 /// Margins of a list narrow with the own radii of a brick's samples, but no further than to this: the layer
 /// map looks that far (twice the width of its smallest texels).

@@ -11,6 +11,7 @@
 namespace slant {
 using uint = std::uint32_t;
 using glm::ivec2;
+using glm::ivec4;
 using glm::uvec2;
 using glm::uvec4;
 using glm::vec2;
@@ -20,10 +21,12 @@ using glm::vec4;
 #define SLANT_SHARED_BEGIN namespace slant {
 #define SLANT_SHARED_END }
 #define SLANT_SHARED_CONSTANT inline constexpr
+#define SLANT_SHARED_FUNCTION inline
 #else
 #define SLANT_SHARED_BEGIN
 #define SLANT_SHARED_END
 #define SLANT_SHARED_CONSTANT const
+#define SLANT_SHARED_FUNCTION
 #endif
 
 #endif

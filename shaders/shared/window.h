@@ -18,6 +18,19 @@ SLANT_SHARED_CONSTANT float kMaxExponent = 40.0f;
 /// One more counter beside kHoleCount and its like: outputs that took the nearest sample of their window.
 SLANT_SHARED_CONSTANT uint kFilledCount = 3u;
 
+/// What came of an output.
+SLANT_SHARED_CONSTANT uint kWindowFound = 0u;  // by one surface alone
+SLANT_SHARED_CONSTANT uint kWindowParted = 1u; // surfaces had to be told apart
+SLANT_SHARED_CONSTANT uint kWindowFilled = 2u; // nothing within the radius: the nearest sample of the window
+SLANT_SHARED_CONSTANT uint kWindowHole = 3u;   // nothing: black
+
+/// A sample of a window, seen from the output's lens position.
+struct WindowCandidate {
+    vec2 offset; // from the output, pixels
+    float distance2, slope;
+    uint record;
+};
+
 /// How an output is found in its window.
 struct WindowSearch {
     ivec2 boundsOrigin; // pixel; samples stand in the order row, column, sample of a pixel

@@ -17,7 +17,8 @@ TEST(Usage, helpAndVersionGoToStdout) {
     EXPECT_EQ(help.err, "");
     const ProgramResult version = runSlant({"--version"});
     EXPECT_EQ(version.status, 0);
-    EXPECT_THAT(version.out, testing::MatchesRegex("slant [0-9]+\\.[0-9]+\\.[0-9]+( \\([0-9a-f]+(-dirty)?\\))?\n"));
+    EXPECT_THAT(version.out,
+                testing::MatchesRegex("slant [0-9]+\\.[0-9]+\\.[0-9]+( \\([0-9a-f]+(-dirty)?\\))?\n"));
 }
 
 TEST(Usage, wrongWordsGiveOneLineAndStatusTwo) {

@@ -2,6 +2,7 @@
 #include "reconstruct/output_pattern.h"
 
 #include "camera/disc.h"
+#include "lib/disc.glsl"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // The method `window` against the words of its description in double precision, and where it fails.
+#include "lib/gaussian.glsl"
 #include "reconstruct/cpu_reconstructor.h"
 #include "reconstruct/window.h"
 #include "support/intermediates.h"

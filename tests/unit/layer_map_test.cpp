@@ -1,4 +1,5 @@
 // The layer map on light fields whose surfaces are known, and what is taken from it.
+#include "lib/map_texel.glsl"
 #include "reconstruct/map_lookup.h"
 #include "reconstruct/plan.h"
 #include "support/synthetic.h"

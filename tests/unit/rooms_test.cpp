@@ -41,7 +41,7 @@ std::string objection(const std::string& room, const std::string& path, bool quo
     for (const auto& [library, only] : kHidden)
         if (path.starts_with(library) && room != only)
             return fmt::format("{} is for {}/ alone", library, only);
-    if (!quoted || path.starts_with("shared/")) return "";
+    if (!quoted || path.starts_with("shared/") || path.starts_with("lib/")) return "";
     if (path == "shaders_embedded.h") return room == "compute" ? "" : "shaders are for compute/ alone";
     if (path == "version.h") return room == "commands" ? "" : "the version is for commands/ alone";
     const std::string other = path.substr(0, path.find('/'));

@@ -214,6 +214,5 @@ TEST(Surfaces, FlatPatchesKeepTheirParametrisation) {
     }
 }
 
-
 } // namespace
 } // namespace slant

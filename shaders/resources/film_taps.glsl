@@ -1,6 +1,6 @@
 // The pixels around one that the pixel filter reaches.
-#ifndef SLANT_LIB_FILM_TAPS_GLSL
-#define SLANT_LIB_FILM_TAPS_GLSL
+#ifndef SLANT_RESOURCES_FILM_TAPS_GLSL
+#define SLANT_RESOURCES_FILM_TAPS_GLSL
 
 /// Pixels to each side.
 layout(constant_id = 0) const int kReachX = 1;

@@ -1,8 +1,7 @@
-// Bindings 0 to 5 of the passes that look outputs up in the bins, and the accessors that lib/search.glsl needs.
-// Not a pure library: it is the resource half that the shaders which search the bins share.
-#ifndef SLANT_LIB_BINS_GLSL
-#define SLANT_LIB_BINS_GLSL
-#include "lib/grid.glsl"
+// Bindings 0 to 5 of the passes that look outputs up in the bins, and what lib/search.glsl needs of them.
+#ifndef SLANT_RESOURCES_BINS_GLSL
+#define SLANT_RESOURCES_BINS_GLSL
+#include "resources/brick.glsl"
 
 layout(set = 0, binding = 0) uniform textureBuffer positions;   // p.x, p.y, slope, visibility weight
 layout(set = 0, binding = 1) uniform textureBuffer values;   // r, g, b, R over its own radius
@@ -11,6 +10,8 @@ layout(set = 0, binding = 3) uniform utextureBuffer listStart;
 layout(set = 0, binding = 4) uniform utextureBuffer listCellBases; // of each listed brick
 layout(set = 0, binding = 5) uniform utextureBuffer listBricks; // the brick itself: one fetch where most are passed over
 layout(push_constant) uniform Push { OutputPush push; };
+
+const int kMaxSteps = kMaxLoopIterations;
 
 vec4 positionAt(uint record) { return texelFetch(positions, int(record)); }
 uint cellStartAt(uint cell) { return texelFetch(cellStart, int(cell)).x; }

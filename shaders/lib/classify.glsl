@@ -1,0 +1,65 @@
+// For a list: the clusters of surfaces that it sees, if its outputs can be taken from the layer map
+// (host/reconstruct/map_lookup.h).
+//
+// Needs, declared before the include: listedBrick(uint), which reads the lists; keepCluster(uint, Cluster),
+// which stores the clusters of the list; and mapLayout. In C++ it is included in a struct that has these,
+// after lib/grid.glsl.
+#include "lib/grid.glsl"
+#include "shared/layer_map.h"
+
+struct Clusters {
+    uint count;
+    bool fits, inFocus, sparse;
+    float slopeMin, slopeMax; // of the one that is open
+};
+
+/// Level of the map where lens positions are near enough to one another on a surface of this slope or more.
+KERNEL float levelFor(float slope) {
+    float spacing = float(mapLayout.texelsPerPixel) * mapLayout.spreadPerPx * max(slope, 0.0f);
+    int level = 0;
+    for (; level + 1 < mapLayout.levels && spacing >= kLevelSpacing; ++level) spacing *= 0.5f;
+    return float(level);
+}
+
+KERNEL void close(INOUT(Clusters) found, float lensRadius, float lensWidth) {
+    const float least = max(found.slopeMin, -found.slopeMax); // to either side
+    const float most = max(-found.slopeMin, found.slopeMax), reach = most * lensRadius;
+    found.inFocus = found.inFocus || least < kMinSlope;
+    found.sparse = found.sparse && most * lensWidth <= kSparsePx;
+    found.fits = found.fits && reach <= mapLayout.reachPx &&
+                 (found.slopeMax - found.slopeMin) * lensRadius <= kWidestClusterPx &&
+                 found.count < kMaxClusters;
+    const Cluster cluster = {found.slopeMin, found.slopeMax, levelFor(least)};
+    keepCluster(found.count, cluster);
+    ++found.count;
+}
+
+/// ListClass of the list [begin, end), seen through lens positions of `lensBox` (min, max), a part of the
+/// disc of radius `lensScale`; as in the buffer of classes, see kInFocusBit and kSparseBit.
+KERNEL uint classOf(uint begin, uint end, vec4 lensBox, float lensScale) {
+    const vec2 farthest = max(abs(vec2(lensBox)), abs(vec2(lensBox.z, lensBox.w)));
+    const float lensRadius = min(sqrt(farthest.x * farthest.x + farthest.y * farthest.y), lensScale);
+    const float lensWidth = max(lensBox.z - lensBox.x, lensBox.w - lensBox.y);
+    Clusters found = {0u, true, false, true, kInfinity, -kInfinity};
+    float finest = 1.0f; // own radius, over R
+    const uint last = min(end, begin + uint(kMaxLoopIterations));
+    for (uint entry = begin; entry < last; ++entry) {
+        IN(Brick) brick = listedBrick(entry);
+        finest = min(finest, widestRadius(brick));
+        if (entry > begin && brick.slopeMin > found.slopeMax + mapLayout.surfaceGap) {
+            close(found, lensRadius, lensWidth);
+            found.slopeMin = brick.slopeMin;
+            found.slopeMax = brick.slopeMax;
+        }
+        found.slopeMin = min(found.slopeMin, brick.slopeMin);
+        found.slopeMax = max(found.slopeMax, brick.slopeMax);
+    }
+    if (end > begin) close(found, lensRadius, lensWidth);
+    const bool tooCoarse = finest * mapLayout.radiusPx * float(mapLayout.texelsPerPixel) < 1.0f;
+    const bool served = found.fits && found.count > 0u && last == end &&
+                        !(found.inFocus && (tooCoarse || found.count > kMaxInFocusClusters));
+    uint listClass = served ? found.count : 0u;
+    if (served && found.inFocus) listClass |= kInFocusBit;
+    if (found.sparse && last == end && end > begin) listClass |= kSparseBit;
+    return listClass;
+}

@@ -1,0 +1,55 @@
+// The surfaces around the middle of a texel of the layer map's level 0, a tent over map.tentPx; where there
+// are several, told apart by the samples within twice that, as lib/visibility.glsl does.
+//
+// What lib/search.glsl needs of a sweep. Needs, declared before the include: a struct LayerTexel with a
+// member `int count`, its layers; noLayers(), which makes an empty one; and keepLayer(vec3 rgb, float
+// coverage, float slope, SlopeCode, inout LayerTexel), which adds a layer. In C++ it is included in a struct,
+// after lib/surface.glsl and before lib/search.glsl.
+#include "lib/surface.glsl"
+
+struct Sweep {
+    bool running; // false: the texel has all its layers
+    float radius, maxRadiusRatio, surfaceGap, fullWeight;
+    SlopeCode code;
+    Surface surface; // the last one
+    LayerTexel texel;
+};
+
+KERNEL Sweep newSweep(IN(GridLayout) grid, float tentPx, float texelsPerPixel, IN(SlopeCode) code) {
+    const float widening = tentPx / grid.radiusPx;
+    const Sweep sweep = {true,
+                         tentPx,
+                         tentPx * texelsPerPixel,
+                         grid.surfaceGap,
+                         kFullWeight * widening * widening,
+                         code,
+                         noSurface(),
+                         noLayers()};
+    return sweep;
+}
+
+/// Makes a layer of a surface. What has nothing before or behind it fills the texel.
+KERNEL void close(INOUT(Sweep) sweep, bool last) {
+    const Surface surface = sweep.surface;
+    if (!(surface.innerWeight > 0.0f)) return;
+    const bool full = (last && sweep.texel.count == 0) || isSolid(surface, sweep.fullWeight);
+    const float coverage = full ? 1.0f : min(surface.innerWeight / sweep.fullWeight, 1.0f);
+    keepLayer(surface.innerSum / surface.innerWeight, coverage, surface.slopeSum / surface.innerWeight,
+              sweep.code, sweep.texel);
+}
+
+KERNEL void visit(IN(Candidate) candidate, INOUT(Sweep) sweep) {
+    if (sweep.surface.count > 0 && candidate.slope > sweep.surface.slopeMax + sweep.surfaceGap) {
+        close(sweep, false);
+        sweep.surface = noSurface();
+        sweep.running = sweep.texel.count < kMapLayers;
+        if (!sweep.running) return;
+    }
+    // Where own radii are less than the tent's, there are more samples in it than it takes.
+    const float widened = min(candidate.value.w, sweep.maxRadiusRatio) / candidate.value.w;
+    Candidate spread = candidate;
+    spread.weight *= widened * widened;
+    addSample(sweep.surface, spread, sweep.radius);
+}
+
+KERNEL bool hides(IN(Sweep), IN(Brick)) { return false; }

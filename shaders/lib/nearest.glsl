@@ -1,0 +1,42 @@
+// The front-most apparent surface within R of an output, tent-filtered, where it is the only one or its
+// samples surround the output. Anything else needs lib/visibility.glsl.
+//
+// What lib/search.glsl needs of a sweep. In C++ it is included in a struct, after lib/candidate.glsl.
+#include "lib/candidate.glsl"
+#include "shared/reconstruct.h"
+
+struct Sweep {
+    bool running; // false: there is another surface behind
+    float invRadius, surfaceGap;
+    vec3 sum;
+    float weightSum, slopeMax;
+    Hull hull;
+};
+
+KERNEL Sweep newSweep(float radiusPx, float surfaceGap) {
+    const Sweep sweep = {true, 1.0f / radiusPx, surfaceGap, vec3(0.0f), 0.0f, -kInfinity, noHull()};
+    return sweep;
+}
+
+KERNEL void visit(IN(Candidate) candidate, INOUT(Sweep) sweep) {
+    if (sweep.weightSum > 0.0f && candidate.slope > sweep.slopeMax + sweep.surfaceGap) {
+        sweep.running = false;
+        return;
+    }
+    const float weight = candidate.weight * (1.0f - sqrt(candidate.distance2) * sweep.invRadius);
+    sweep.sum += weight * vec3(candidate.value);
+    sweep.weightSum += weight;
+    sweep.slopeMax = max(sweep.slopeMax, candidate.slope);
+    addPoint(sweep.hull, candidate.offset);
+}
+
+KERNEL bool isSolid(IN(Sweep) sweep) {
+    return sweep.weightSum >= kSolidInner * kFullWeight && surrounds(sweep.hull);
+}
+
+KERNEL bool hides(IN(Sweep) sweep, IN(Brick) brick) {
+    return brick.slopeMin > sweep.slopeMax + sweep.surfaceGap && isSolid(sweep);
+}
+
+/// Whether the surface that was found is what the output sees: sum / weightSum.
+KERNEL bool isTaken(IN(Sweep) sweep) { return sweep.running ? sweep.weightSum > 0.0f : isSolid(sweep); }

@@ -1,0 +1,50 @@
+// The samples within twice a base radius of an output, split into apparent surfaces that are laid over one
+// another, front to back: one that surrounds the output hides the rest, another covers as much as its samples
+// are many, and the last is taken as it is.
+//
+// After Lehtinen et al. 2011, section 4, but that surfaces are split at gaps in slope instead of at pairwise
+// crossings (bricks come front to back, so one sweep finds them without storing candidates, and there is no
+// limit on their number), and that a surface which does not cover the output is not dropped but weighed by
+// its density, so that small and thin things keep their brightness.
+//
+// What lib/search.glsl needs of a sweep. In C++ it is included in a struct, after lib/surface.glsl.
+#include "lib/surface.glsl"
+
+struct Sweep {
+    bool running; // false: nothing shows through any more
+    float baseRadius, surfaceGap, fullWeight;
+    Surface surface; // the last one
+    Layers layers;   // those before it
+};
+
+KERNEL Sweep newSweep(IN(GridLayout) grid, float baseRadius) {
+    const float widening = baseRadius / grid.radiusPx;
+    const Layers none = {vec3(0.0f), 1.0f};
+    const Sweep sweep = {true,        baseRadius, grid.surfaceGap, kFullWeight * widening * widening,
+                         noSurface(), none};
+    return sweep;
+}
+
+KERNEL void visit(IN(Candidate) candidate, INOUT(Sweep) sweep) {
+    if (sweep.surface.count > 0 && candidate.slope > sweep.surface.slopeMax + sweep.surfaceGap) {
+        addSurface(sweep.layers, sweep.surface, sweep.fullWeight);
+        sweep.surface = noSurface();
+        sweep.running = sweep.layers.transmittance > 0.0f;
+        if (!sweep.running) return;
+    }
+    addSample(sweep.surface, candidate, sweep.baseRadius);
+}
+
+KERNEL bool hides(IN(Sweep) sweep, IN(Brick) brick) {
+    return brick.slopeMin > sweep.surface.slopeMax + sweep.surfaceGap &&
+           isSolid(sweep.surface, sweep.fullWeight);
+}
+
+KERNEL bool foundNothing(IN(Sweep) sweep) { return sweep.surface.count == 0 && sweep.running; }
+
+/// All layers, where there are some.
+KERNEL vec3 radianceOf(IN(Sweep) sweep) {
+    vec3 rgb = sweep.layers.rgb;
+    if (sweep.surface.count > 0) rgb += sweep.layers.transmittance * meanOf(sweep.surface);
+    return rgb;
+}

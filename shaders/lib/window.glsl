@@ -1,0 +1,121 @@
+// One output of the method `window`, which host/reconstruct/window.h explains.
+//
+// Needs, declared before the include: positionAt(uint), valueAt(uint) and pixelStartAt(int), which read
+// the samples; keepCandidate(int place, WindowCandidate) and keptCandidate(int place, Output), which hold
+// candidates; and sortCandidates(int count), which puts them front to back, and in the order of samples where
+// slopes are equal. In C++ it is included in a struct that has these, after lib/candidate.glsl,
+// lib/gaussian.glsl and lib/output.glsl.
+#include "lib/candidate.glsl"
+#include "lib/gaussian.glsl"
+#include "lib/output.glsl"
+#include "lib/trajectory.glsl"
+#include "shared/window.h"
+
+/// What is known of an apparent surface.
+struct WindowSurface {
+    int count;
+    vec3 sum;
+    float weightSum;
+    Hull hull;
+};
+
+KERNEL WindowSurface noWindowSurface() {
+    const WindowSurface surface = {0, vec3(0.0f), 0.0f, noHull()};
+    return surface;
+}
+
+KERNEL vec2 offsetOf(IN(vec4) position, IN(Output) o) {
+    const Trajectory trajectory = {vec2(position), position.z};
+    vec2 offset = seenFrom(trajectory, o.uv) - o.xy;
+    if (o.onSceneSide) offset = onFilm(o, offset);
+    return offset;
+}
+
+KERNEL void addToSurface(INOUT(WindowSurface) surface, IN(WindowCandidate) candidate, float alpha) {
+    const float weight = expOfMinus(min(alpha * candidate.distance2, kMaxExponent));
+    surface.count += 1;
+    surface.sum += weight * vec3(valueAt(candidate.record));
+    surface.weightSum += weight;
+    addPoint(surface.hull, candidate.offset);
+}
+
+/// Whether two trajectories have the same order, in x and in y, a lens step to either side.
+KERNEL bool sameSurface(IN(WindowCandidate) a, IN(WindowCandidate) b, float lensStep) {
+    const vec2 apart = a.offset - b.offset;
+    const float shear = (a.slope - b.slope) * lensStep;
+    return (apart.x + shear > 0.0f) == (apart.x - shear > 0.0f) &&
+           (apart.y + shear > 0.0f) == (apart.y - shear > 0.0f);
+}
+
+struct WindowFinds {
+    int count;      // samples that reproject to within their radius; candidates 0 to count - 1
+    uint nearest;   // of all samples of the window
+    float nearest2; // its distance; infinite where there are none
+};
+
+/// Keeps the candidates of a pixel's output.
+KERNEL WindowFinds collect(IN(WindowSearch) search, ivec2 pixel, IN(Output) o) {
+    WindowFinds finds = {0, 0u, kInfinity};
+    const ivec2 center = pixel - search.boundsOrigin;
+    const ivec2 first = max(center - search.rangePx, ivec2(0));
+    const ivec2 last = min(center + search.rangePx, search.boundsSize - 1);
+    for (int y = first.y; y <= last.y; ++y) {
+        if (last.x < first.x) break;
+        const int row = y * search.boundsSize.x;
+        const uint begin = pixelStartAt(row + first.x), end = pixelStartAt(row + last.x + 1);
+        for (uint record = begin; record < end; ++record) {
+            IN(vec4) position = positionAt(record);
+            const vec2 offset = offsetOf(position, o);
+            const float distance2 = offset.x * offset.x + offset.y * offset.y;
+            if (distance2 < finds.nearest2) {
+                finds.nearest2 = distance2;
+                finds.nearest = record;
+            }
+            if (!(distance2 < position.w)) continue;
+            const WindowCandidate candidate = {offset, distance2, position.z, record};
+            keepCandidate(finds.count, candidate);
+            ++finds.count;
+        }
+    }
+    return finds;
+}
+
+/// What an output sees.
+struct WindowView {
+    uint outcome; // kWindowFound ...
+    vec3 rgb;
+};
+
+/// The foremost surface that surrounds the output; without one the foremost of all.
+KERNEL WindowView viewOf(IN(WindowSearch) search, IN(WindowFinds) finds, IN(Output) o) {
+    WindowView view = {kWindowHole, vec3(0.0f)};
+    if (finds.count == 0) {
+        if (search.fill == 0u || !(finds.nearest2 < kInfinity)) return view;
+        view.outcome = kWindowFilled;
+        view.rgb = vec3(valueAt(finds.nearest));
+        return view;
+    }
+    // Sorted here and not while they are gathered: lavapipe counts a step of an inner loop even where it is
+    // not entered.
+    sortCandidates(finds.count);
+    WindowSurface front = noWindowSurface(), surface = noWindowSurface();
+    WindowCandidate previous = {vec2(0.0f), 0.0f, 0.0f, 0u};
+    bool taken = false;
+    for (int i = 0; i < finds.count && !taken; ++i) {
+        IN(WindowCandidate) candidate = keptCandidate(i, o);
+        if (surface.count >= kMinSurface && !sameSurface(previous, candidate, search.lensStep)) {
+            taken = surrounds(surface.hull);
+            if (taken) break;
+            if (front.count == 0) front = surface;
+            surface = noWindowSurface();
+        }
+        addToSurface(surface, candidate, search.alpha);
+        previous = candidate;
+    }
+    taken = taken || surrounds(surface.hull);
+    const bool parted = taken ? surface.count < finds.count : front.count > 0;
+    if (!taken && front.count > 0) surface = front;
+    view.outcome = parted ? kWindowParted : kWindowFound;
+    view.rgb = surface.sum / surface.weightSum;
+    return view;
+}
