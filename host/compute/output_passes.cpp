@@ -7,8 +7,9 @@
 
 namespace slant {
 
-OutputPasses::OutputPasses(Device& device, const OutputPattern& pattern, const LensMap& lens)
-    : device_(device), nearest_(device, "reconstruct", compoundLens(lens)),
+OutputPasses::OutputPasses(Device& device, const OutputPattern& pattern, const LensMap& lens,
+                           const SearchKernel& kernel)
+    : device_(device), search_(device, kernel.pass, compoundLens(lens)),
       visibility_(device, "visibility", compoundLens(lens)),
       pattern_(device, TexelFormat::rgba32ui, pattern.entries.size()),
       aperture_(device, TexelFormat::r32f, pattern.aperture.table().size()),
@@ -43,11 +44,11 @@ OutputPasses::Result OutputPasses::run(CommandList& commands, ListPasses& listPa
         push.takenBits = bits;
         Buffer buffer(device_, TexelFormat::rgba32ui, items->size());
         buffer.upload(std::span(*items));
-        commands.dispatch(
-            nearest_,
-            {bins.positions, bins.values, bins.cellStart, lists.start, lists.cellBases, lists.bricks,
-             pattern_, dense, counters_, visibilityList_, overflowList_, buffer, aperture_, lensMap_, missed},
-            push, nearest_.gridFor((std::uint64_t(push.count) * kTileSize * kTileSize) << bits));
+        commands.dispatch(search_,
+                          {bins.positions, bins.values, bins.cellStart, lists.start, lists.cellBases,
+                           lists.bricks, pattern_, dense, counters_, visibilityList_, overflowList_, buffer,
+                           aperture_, lensMap_, missed},
+                          push, search_.gridFor((std::uint64_t(push.count) * kTileSize * kTileSize) << bits));
         commands.run();
     }
 

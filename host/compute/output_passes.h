@@ -11,7 +11,8 @@ namespace slant {
 class OutputPasses {
 public:
     /// Outputs look through `lens` unless it is empty.
-    OutputPasses(Device& device, const OutputPattern& pattern, const LensMap& lens);
+    OutputPasses(Device& device, const OutputPattern& pattern, const LensMap& lens,
+                 const SearchKernel& kernel);
 
     /// What one chunk met; what overflowed is in no other count.
     struct Result {
@@ -35,7 +36,7 @@ private:
     Counters counters() const;
 
     Device& device_;
-    Pass nearest_, visibility_;
+    Pass search_, visibility_;
     Buffer pattern_, aperture_, lensMap_;
     Buffer counters_;
     Buffer visibilityList_, holeList_, overflowList_;

@@ -30,7 +30,7 @@ void VulkanEngine::begin(PictureSetup setup) {
     picture_.reset();
     if (bins_)
         picture_.emplace(BinPicture{ListPasses(device_, setup_.pattern, lensMap()),
-                                    OutputPasses(device_, setup_.pattern, lensMap()),
+                                    OutputPasses(device_, setup_.pattern, lensMap(), setup_.search),
                                     MapPasses(device_, setup_.pattern)});
 }
 

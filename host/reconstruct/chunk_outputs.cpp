@@ -8,8 +8,8 @@
 namespace slant {
 
 ChunkOutputs::ChunkOutputs(const Bins& bins, const LensMap& lens, const OutputPattern& pattern,
-                           const Chunk& chunk)
-    : bins_(bins), lens_(lens), pattern_(pattern), chunk_(chunk),
+                           const SearchKernel& kernel, const Chunk& chunk)
+    : bins_(bins), lens_(lens), pattern_(pattern), kernel_(kernel), chunk_(chunk),
       groups_(
           std::span(pattern.groups).subspan(std::size_t(chunk.firstGroup), std::size_t(chunk.groupCount))),
       lensPoints_(lensPoints(pattern)) {
@@ -174,7 +174,7 @@ void ChunkOutputs::searchSlot(const Slot& slot, Counts& counts) {
     const Output output = at(slot);
     if (!(output.weight > 0)) return store(slot, output, {Outcome::resolved}); // the film is dark
     const SearchContext context = contextOf(lists, slot.list);
-    Reconstructed result = reconstructNearest(context, output);
+    Reconstructed result = kernel_.onCpu(context, output);
     if (result.outcome == Outcome::needsVisibility) {
         ++counts.visibility;
         result = resolveVisibility(context, output, bins_.grid.radiusPx);

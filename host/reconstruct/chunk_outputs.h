@@ -16,7 +16,8 @@ namespace slant {
 class ChunkOutputs {
 public:
     /// Outputs look through `lens` unless it is empty. What it refers to outlives it.
-    ChunkOutputs(const Bins& bins, const LensMap& lens, const OutputPattern& pattern, const Chunk& chunk);
+    ChunkOutputs(const Bins& bins, const LensMap& lens, const OutputPattern& pattern,
+                 const SearchKernel& kernel, const Chunk& chunk);
 
     void makeLists();
     /// Progress in outputs that the map serves.
@@ -60,6 +61,7 @@ private:
     const Bins& bins_;
     const LensMap& lens_;
     const OutputPattern& pattern_;
+    SearchKernel kernel_;
     Chunk chunk_;
     std::span<const LensBox> groups_;
     std::vector<vec4> lensPoints_; ///< of all outputs of the pattern

@@ -26,7 +26,7 @@ void CpuEngine::makeMap(const MapLayout& layout) {
 }
 
 void CpuEngine::makeLists(const Chunk& chunk) {
-    outputs_.emplace(bins_->bins(), lensMap(), setup_.pattern, chunk);
+    outputs_.emplace(bins_->bins(), lensMap(), setup_.pattern, setup_.search, chunk);
     outputs_->makeLists();
     noteBytes(outputs_->dense.samples.size() * sizeof(vec4));
 }

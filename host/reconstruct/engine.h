@@ -38,7 +38,8 @@ const char* nameOf(Intermediate intermediate);
 struct PictureSetup {
     Rect frame;
     FilterTable filter;
-    OutputPattern pattern; ///< of `box`: a single output
+    OutputPattern pattern; ///< of methods that make outputs
+    SearchKernel search;   ///< of methods that search the bins
     std::uint64_t seed = 0;
     bool observed = false; ///< intermediates are wanted: what nobody reads is defined, too
 };

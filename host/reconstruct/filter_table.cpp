@@ -1,6 +1,7 @@
 #include "reconstruct/filter_table.h"
 
 #include "base/error.h"
+#include "scene/filter_reach.h"
 
 #include <cmath>
 #include <numbers>
@@ -61,7 +62,7 @@ FilterTable makeFilterTable(const PixelFilter& filter) {
             throw Error(ErrorCode::badInput,
                         fmt::format("pixel filter radius must be in (0, 16], not {}", radius));
         table.length[axis] = int(std::ceil(radius * kSubpixels));
-        table.reach[axis] = int(std::ceil(radius - 0.5));
+        table.reach[axis] = filterReach(filter)[axis];
         for (int i = 0; i < table.length[axis]; ++i)
             table.weights.push_back(float(evaluateFilterAxis(filter, radius, (i + 0.5) / kSubpixels)));
     }

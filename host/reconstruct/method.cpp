@@ -1,5 +1,7 @@
 #include "reconstruct/method.h"
 
+#include "reconstruct/search.h"
+
 #include <algorithm>
 #include <array>
 
@@ -10,8 +12,8 @@ namespace {
 const std::array<MethodTraits, kMethodCount> kMethods = {{
     {"box", DenseSource::input},
     {"window", DenseSource::window},
-    {"full", DenseSource::bins},
-    {"auto", DenseSource::bins, true},
+    {"full", DenseSource::bins, {"reconstruct", reconstructNearest}},
+    {"auto", DenseSource::bins, {"reconstruct", reconstructNearest}, true},
 }};
 
 const std::array<std::string, kMethodCount> kNames = [] {

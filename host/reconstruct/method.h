@@ -23,10 +23,22 @@ enum class DenseSource {
     bins,   ///< outputs, each from the samples that the bins hold around it
 };
 
+struct SearchContext;
+struct Output;
+struct Reconstructed;
+
+/// How methods that search the bins do so at first; outputs that it does not take go on to the kernel of
+/// visibility (search.h).
+struct SearchKernel {
+    const char* pass = nullptr; ///< the shader
+    Reconstructed (*onCpu)(const SearchContext& context, const Output& output) = nullptr;
+};
+
 /// One row of the table of methods: all that the rest of the program asks of a method.
 struct MethodTraits {
     std::string name; ///< what users call it
     DenseSource source;
+    SearchKernel search = {};  ///< of methods that search the bins
     bool usesLayerMap = false; ///< outputs come from the layer map where it serves
 
     /// Whether it makes outputs, so that their number and the lens matter.

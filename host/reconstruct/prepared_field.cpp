@@ -78,7 +78,8 @@ private:
 
     const OutputPattern& begin(OutputPattern pattern) {
         pattern_ = std::move(pattern);
-        engine_.begin({field_.frame, filter_, pattern_, options_.seed, observer_ != nullptr});
+        engine_.begin({field_.frame, filter_, pattern_, traitsOf(options_.method).search, options_.seed,
+                       observer_ != nullptr});
         return pattern_;
     }
 

@@ -17,19 +17,25 @@ struct VisibilityKernels : BinFetches {
 #include "lib/search.glsl"
 };
 
-} // namespace
-
-Reconstructed reconstructNearest(const SearchContext& context, const Output& output) {
+/// What resources/search_outputs.glsl does with the kernels of a method.
+template <typename Kernels>
+Reconstructed searchWithin(const SearchContext& context, const Output& output) {
     const GridLayout& grid = context.bins.grid;
-    NearestKernels kernels{{context}};
-    NearestKernels::Sweep sweep = kernels.newSweep(grid.radiusPx, grid.surfaceGap);
+    Kernels kernels{{context}};
+    auto sweep = kernels.newSweep(grid.radiusPx, grid.surfaceGap);
     Reconstructed result;
     result.iterations = kernels.forEachCandidate(grid, output, grid.radiusPx, kAnyRadiusRatio, 0,
                                                  kernels.listLength(), sweep);
     const bool taken = kernels.isTaken(sweep);
     result.outcome = taken ? Outcome::resolved : Outcome::needsVisibility;
-    if (taken) result.rgb = sweep.sum / sweep.weightSum;
+    if (taken) result.rgb = kernels.valueOf(sweep);
     return result;
+}
+
+} // namespace
+
+Reconstructed reconstructNearest(const SearchContext& context, const Output& output) {
+    return searchWithin<NearestKernels>(context, output);
 }
 
 Reconstructed resolveVisibility(const SearchContext& context, const Output& output, float baseRadius) {

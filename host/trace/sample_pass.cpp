@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "lib/trajectory.glsl"
+#include "scene/filter_reach.h"
 
 #include <algorithm>
 #include <array>
@@ -107,7 +108,7 @@ struct Reach {
 
 } // namespace
 
-Rect boundsWithOverscan(Rect frame, std::span<const LightFieldSample> samples, int samplesPerPixel,
+Rect boundsWithOverscan(Rect seen, std::span<const LightFieldSample> samples, int samplesPerPixel,
                         int limitPx, int& wantedPx, const LensMap& lens) {
     Reach reach;
     std::mutex mutex;
@@ -115,9 +116,9 @@ Rect boundsWithOverscan(Rect frame, std::span<const LightFieldSample> samples, i
         Reach local;
         for (std::size_t i = first; i < last; ++i) {
             if (lens.empty())
-                local.add(samples[i], frame);
+                local.add(samples[i], seen);
             else
-                local.add(samples[i], frame, lens);
+                local.add(samples[i], seen, lens);
         }
         const std::lock_guard lock(mutex);
         reach.add(local);
@@ -129,40 +130,41 @@ Rect boundsWithOverscan(Rect frame, std::span<const LightFieldSample> samples, i
         wantedPx = std::max(wantedPx, wanted);
         return std::min(wanted, limitPx);
     };
-    return {frame.x0 - side(reach.left), frame.y0 - side(reach.top), frame.x1 + side(reach.right),
-            frame.y1 + side(reach.bottom)};
+    return {seen.x0 - side(reach.left), seen.y0 - side(reach.top), seen.x1 + side(reach.right),
+            seen.y1 + side(reach.bottom)};
 }
 
 LightField traceLightField(const Tracer& tracer, const Scene& scene, const SampleOptions& options,
                            Monitor& monitor) {
     const int spp = options.samplesPerPixel;
     const Rect frame = scene.film.crop;
+    const Rect seen = filteredPixels(frame, scene.filter); // outputs of these pixels count
     const LensMap lensMap = tracer.camera().lensMap();
     auto trace = [&](Rect pixels, SampleSet& into) {
         tracer.trace(pixels, 0, spp, spp, options.seed, spansOf(into), monitor);
     };
-    requireBudget(fieldBytes(frame, options), frame, options);
-    SampleSet inFrame = samplesOf(frame, options);
-    monitor.beginStage("trace", std::uint64_t(frame.area()) * std::uint64_t(spp), "samples");
-    trace(frame, inFrame);
+    requireBudget(fieldBytes(seen, options), seen, options);
+    SampleSet inSeen = samplesOf(seen, options);
+    monitor.beginStage("trace", std::uint64_t(seen.area()) * std::uint64_t(spp), "samples");
+    trace(seen, inSeen);
     monitor.endStage();
 
     int limit = std::max(scene.film.xResolution, scene.film.yResolution) / 2, wanted = 0;
-    const Rect bounds = boundsWithOverscan(frame, inFrame.samples, spp, limit, wanted, lensMap);
+    const Rect bounds = boundsWithOverscan(seen, inSeen.samples, spp, limit, wanted, lensMap);
     if (wanted > limit)
         monitor.warn(
             fmt::format("blur reaches {} pixels beyond the frame; the overscan is limited to {} pixels, so "
                         "borders may lack what enters from farther out",
                         wanted, limit));
-    requireBudget(fieldBytes(bounds, options) + fieldBytes(frame, options), bounds, options);
+    requireBudget(fieldBytes(bounds, options) + fieldBytes(seen, options), bounds, options);
     LightField field{samplesOf(bounds, options), bounds,  frame, spp, tracer.camera().slopeModel(),
                      tracer.camera().aperture(), lensMap, {}};
-    copyRows(inFrame, frame, field, bounds, spp);
-    monitor.beginStage("trace overscan", std::uint64_t(bounds.area() - frame.area()) * std::uint64_t(spp),
+    copyRows(inSeen, seen, field, bounds, spp);
+    monitor.beginStage("trace overscan", std::uint64_t(bounds.area() - seen.area()) * std::uint64_t(spp),
                        "samples");
     const std::array<Rect, 4> ring{
-        Rect{bounds.x0, bounds.y0, bounds.x1, frame.y0}, Rect{bounds.x0, frame.y0, frame.x0, frame.y1},
-        Rect{frame.x1, frame.y0, bounds.x1, frame.y1}, Rect{bounds.x0, frame.y1, bounds.x1, bounds.y1}};
+        Rect{bounds.x0, bounds.y0, bounds.x1, seen.y0}, Rect{bounds.x0, seen.y0, seen.x0, seen.y1},
+        Rect{seen.x1, seen.y0, bounds.x1, seen.y1}, Rect{bounds.x0, seen.y1, bounds.x1, bounds.y1}};
     for (Rect part : ring) {
         SampleSet samples = samplesOf(part, options);
         trace(part, samples);

@@ -16,7 +16,11 @@ using test::expectEqual;
 using test::Reconstruction;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-const std::vector<Method> kMethods = {Method::box, Method::window, Method::full, Method::automatic};
+const std::vector<Method> kMethods = [] {
+    std::vector<Method> methods;
+    for (std::size_t i = 0; i < kMethodCount; ++i) methods.push_back(Method(i));
+    return methods;
+}();
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 class ReconstructParity : public test::VulkanTest {

@@ -63,7 +63,7 @@ std::vector<std::string> linesOf(const fs::path& path) {
 std::vector<fs::path> filesUnder(const char* folder) {
     std::vector<fs::path> files;
     for (const auto& entry : fs::recursive_directory_iterator(kSource / folder))
-        if (entry.is_regular_file()) files.push_back(entry.path());
+        if (entry.is_regular_file() && entry.path().extension() != ".md") files.push_back(entry.path());
     return files;
 }
 

@@ -193,8 +193,8 @@ TEST(SamplePass, OverscanReachesAsFarAsTheBlur) {
     EXPECT_TRUE(monitor.warnings.empty());
     // The wall fills most of the border. A trajectory there reaches once its slope beyond the frame at least,
     // and twice that when it was seen from the far side of the lens; nothing is more blurred than the ball.
-    // Then 2 / sqrt(4) + 1.
-    int least = int(field.slopeModel(12)) + 2, widest = int(std::ceil(-2 * field.slopeModel(2.4f))) + 2;
+    // Then 2 / sqrt(4) + 1, and 1 for the pixel filter.
+    int least = int(field.slopeModel(12)) + 3, widest = int(std::ceil(-2 * field.slopeModel(2.4f))) + 3;
     for (int side : {field.frame.x0 - field.bounds.x0, field.frame.y0 - field.bounds.y0,
                      field.bounds.x1 - field.frame.x1, field.bounds.y1 - field.frame.y1}) {
         EXPECT_GE(side, least);
@@ -214,7 +214,7 @@ TEST(SamplePass, OverscanIsLimitedWithAWarning) {
     RecordingMonitor monitor;
     Tracer tracer(scene, monitor);
     LightField field = traceLightField(tracer, scene, {1}, monitor);
-    EXPECT_EQ(field.bounds, field.frame.expand(16));
+    EXPECT_EQ(field.bounds, field.frame.expand(17)) << "with the reach of the filter";
     ASSERT_EQ(monitor.warnings.size(), 1u);
     EXPECT_NE(monitor.warnings[0].find("16"), std::string::npos);
 }
