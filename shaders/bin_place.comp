@@ -22,10 +22,11 @@ void main() {
     const vec4 place = texelFetch(samples, int(3u * i));
     const vec4 depth = texelFetch(samples, int(3u * i + 1u));
     const vec4 radiance = texelFetch(samples, int(3u * i + 2u));
-    const float slope = depth.z;
-    const vec2 p = pinholeOf(place.xy, place.zw, slope);
+    const Trajectory trajectory = trajectoryOf(place.xy, place.zw, depth.z);
+    const vec2 p = trajectory.pinhole;
+    const float slope = trajectory.slope;
     const int index = int(push.firstSample + i);
-    const bool kept = reaches(p, slope, vec2(push.regionMin), vec2(push.regionMax), push.marginPx);
+    const bool kept = reaches(trajectory, vec2(push.regionMin), vec2(push.regionMax), push.marginPx);
     imageStore(positions, index, vec4(p, slope, radiance.w));
     const float radiusRatio = kept ? radiusRatioAt(push.density, p, slope, push.grid.radiusPx) : 1.0;
     imageStore(radiances, index, vec4(radiance.rgb, radiusRatio));
