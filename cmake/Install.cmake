@@ -5,8 +5,10 @@ include(CMakePackageConfigHelpers)
 
 install(TARGETS slant)
 install(TARGETS slant_lib EXPORT slantTargets)
-install(DIRECTORY host/ DESTINATION include/slant FILES_MATCHING PATTERN "*.h" PATTERN "commands" EXCLUDE)
-install(DIRECTORY shaders/ DESTINATION include/slant FILES_MATCHING REGEX "/shared/[^/]*\\.h$" PATTERN "lib" EXCLUDE)
+install(DIRECTORY host/ DESTINATION include/slant FILES_MATCHING PATTERN "*.h" PATTERN "commands" EXCLUDE
+    PATTERN "kernels.h" EXCLUDE PATTERN "bin_fetches.h" EXCLUDE) # they include shaders/lib/
+install(DIRECTORY shaders/ DESTINATION include/slant FILES_MATCHING REGEX "/shared/[^/]*\\.h$" PATTERN "lib" EXCLUDE
+    PATTERN "resources" EXCLUDE)
 install(EXPORT slantTargets NAMESPACE slant:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/slant)
 configure_package_config_file(cmake/slantConfig.cmake.in "${PROJECT_BINARY_DIR}/slantConfig.cmake"
     INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/slant)
