@@ -9,7 +9,7 @@ install(TARGETS slant_lib EXPORT slantTargets)
 install(CODE "
     set(SOURCE \"${PROJECT_SOURCE_DIR}\")
     set(DESTINATION \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}/slant\")
-    set(HEADERS render/render.h render/brute_force.h scene/read_scene.h lightfield/field_file.h lightfield/refocus.h
+    set(HEADERS render/render.h scene/read_scene.h lightfield/field_file.h lightfield/refocus.h
         image/exr.h image/png.h image/metrics.h image/flip.h)
     include(\"${PROJECT_SOURCE_DIR}/cmake/InstallHeaders.cmake\")")
 install(EXPORT slantTargets NAMESPACE slant:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/slant)

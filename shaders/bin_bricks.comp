@@ -3,6 +3,7 @@
 // cell at the grid's origin would stand (modulo 2^32), so that cells are found without dividing.
 #extension GL_GOOGLE_include_directive : require
 #include "resources/invocation.glsl"
+#include "lib/grid.glsl"
 #include "lib/ordered_float.glsl"
 #include "shared/reconstruct.h"
 
@@ -24,9 +25,7 @@ void main() {
     imageStore(cellBases, int(i), uvec4(i * side * side - corner.y * side - corner.x));
     const uvec2 first = corner + uvec2(texelFetch(bounds, word + 2).x, texelFetch(bounds, word + 3).x);
     const uvec2 last = corner + uvec2(~texelFetch(bounds, word + 4).x, ~texelFetch(bounds, word + 5).x);
-    const uint radius = uint(ceil(kRadiusSteps / uintBitsToFloat(texelFetch(bounds, word + 6).x)));
-    const uvec2 extent = last - first;
+    const uvec2 extent = brickExtent(first, last, uintBitsToFloat(texelFetch(bounds, word + 6).x));
     imageStore(bricks, int(i),
-               uvec4(first.x | first.y << 16, extent.x | extent.y << 6 | radius << 12, floatBits(texelFetch(bounds, word).x),
-                     floatBits(~texelFetch(bounds, word + 1).x)));
+               uvec4(extent, floatBits(texelFetch(bounds, word).x), floatBits(~texelFetch(bounds, word + 1).x)));
 }

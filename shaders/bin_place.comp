@@ -19,10 +19,11 @@ void main() {
     const uint i = linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
     if (i >= push.count) return;
     const vec4 place = texelFetch(samples, int(2u * i));
-    const float slope = texelFetch(samples, int(2u * i + 1u)).z;
-    const vec2 p = pinholeOf(place.xy, place.zw, slope);
+    const Trajectory trajectory = trajectoryOf(place.xy, place.zw, texelFetch(samples, int(2u * i + 1u)).z);
+    const vec2 p = trajectory.pinhole;
+    const float slope = trajectory.slope;
     const int index = int(push.firstSample + i);
-    const bool kept = reaches(p, slope, vec2(push.regionMin), vec2(push.regionMax), push.marginPx);
+    const bool kept = reaches(trajectory, vec2(push.regionMin), vec2(push.regionMax), push.marginPx);
     const float radiusRatio = kept ? radiusRatioAt(push.density, p, slope, push.grid.radiusPx) : 1.0;
     imageStore(positions, index, vec4(p, slope, radiusRatio));
     imageStore(keys, index, uvec4(kept ? sortKey(push.grid, p, slope) : kNotBinned));

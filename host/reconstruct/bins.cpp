@@ -51,9 +51,9 @@ struct BrickBounds {
 
     Brick brick(const GridLayout& grid) const {
         const ivec2 place(int(key) % grid.brickCount.x, int(key) / grid.brickCount.x % grid.brickCount.y);
-        const ivec2 low = place * grid.cellsPerBrick + first, extent = last - first;
-        const uint radius = uint(glm::ceil(kRadiusSteps / radiusRatio));
-        return {uint(low.x | low.y << 16), uint(extent.x | extent.y << 6) | radius << 12, slopeMin, slopeMax};
+        const ivec2 corner = place * grid.cellsPerBrick;
+        const uvec2 extent = brickExtent(uvec2(corner + first), uvec2(corner + last), radiusRatio);
+        return {extent.x, extent.y, slopeMin, slopeMax};
     }
 };
 

@@ -69,7 +69,7 @@ float marginPx(const BinScope& scope, const SampleDensity& density) {
 }
 
 bool reaches(const LightFieldSample& s, const Rect& region, float marginPx) {
-    return reaches(pinholePosition(s), s.slope, vec2(float(region.x0), float(region.y0)),
+    return reaches(trajectoryOf(s), vec2(float(region.x0), float(region.y0)),
                    vec2(float(region.x1), float(region.y1)), marginPx);
 }
 

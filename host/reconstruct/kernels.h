@@ -14,8 +14,11 @@
 
 namespace slant {
 
+inline Trajectory trajectoryOf(const LightFieldSample& s) {
+    return trajectoryOf(vec2(s.x, s.y), vec2(s.u, s.v), s.slope);
+}
 inline vec2 pinholePosition(const LightFieldSample& s) {
-    return pinholeOf(vec2(s.x, s.y), vec2(s.u, s.v), s.slope);
+    return trajectoryOf(s).pinhole;
 }
 
 } // namespace slant

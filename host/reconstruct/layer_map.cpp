@@ -105,6 +105,7 @@ struct MapSweepKernels : BinFetches {
         texel.layers[std::size_t(texel.count++)] = {rgb, coverage, slope};
     }
 #include "lib/map_sweep.glsl"
+
 #include "lib/search.glsl"
 };
 

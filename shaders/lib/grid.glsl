@@ -8,9 +8,10 @@
 SLANT_SHARED_BEGIN
 
 /// Whether any output of the region can come to use a sample (false for disabled samples).
-KERNEL bool reaches(vec2 p, float slope, vec2 regionMin, vec2 regionMax, float marginPx) {
-    if (isnan(slope) || isinf(slope)) return false;
-    const float reach = abs(slope) + marginPx;
+KERNEL bool reaches(IN(Trajectory) trajectory, vec2 regionMin, vec2 regionMax, float marginPx) {
+    if (isnan(trajectory.slope) || isinf(trajectory.slope)) return false;
+    const vec2 p = trajectory.pinhole;
+    const float reach = abs(trajectory.slope) + marginPx;
     return p.x + reach >= regionMin.x && p.x - reach <= regionMax.x && p.y + reach >= regionMin.y &&
            p.y - reach <= regionMax.y;
 }
@@ -37,6 +38,14 @@ KERNEL ivec2 firstCell(IN(Brick) brick) { return ivec2(brick.firstCell & 0xffffu
 KERNEL ivec2 lastCell(IN(Brick) brick) {
     return firstCell(brick) + ivec2(brick.extent & 63u, brick.extent >> 6 & 63u);
 }
+/// First two words of a brick whose samples lie in the cells from `first` to `last`, the least of their R
+/// over own radius being `radiusRatio`.
+KERNEL uvec2 brickExtent(uvec2 first, uvec2 last, float radiusRatio) {
+    const uvec2 extent = last - first;
+    const uint radius = uint(ceil(kRadiusSteps / radiusRatio));
+    return uvec2(first.x | first.y << 16, extent.x | extent.y << 6 | radius << 12);
+}
+
 /// Over R.
 KERNEL float widestRadius(IN(Brick) brick) { return float(brick.extent >> 12) * (1.0f / kRadiusSteps); }
 

@@ -8,7 +8,8 @@ layout(set = 0, binding = 1) uniform textureBuffer values;   // r, g, b, R over 
 layout(set = 0, binding = 2) uniform utextureBuffer cellStart;
 layout(set = 0, binding = 3) uniform utextureBuffer listStart;
 layout(set = 0, binding = 4) uniform utextureBuffer listCellBases; // of each listed brick
-layout(set = 0, binding = 5) uniform utextureBuffer listBricks; // the brick itself: one fetch where most are passed over
+// The bricks themselves: one fetch where most are passed over.
+layout(set = 0, binding = 5) uniform utextureBuffer listBricks;
 layout(push_constant) uniform Push { OutputPush push; };
 
 const int kMaxSteps = kMaxLoopIterations;
