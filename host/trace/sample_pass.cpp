@@ -108,63 +108,67 @@ struct Reach {
 
 } // namespace
 
-Rect boundsWithOverscan(Rect seen, std::span<const LightFieldSample> samples, int samplesPerPixel,
-                        int limitPx, int& wantedPx, const LensMap& lens) {
+Rect boundsWithOverscan(Rect frame, glm::ivec2 filterReach, std::span<const LightFieldSample> samples,
+                        int samplesPerPixel, int limitPx, int& wantedPx, const LensMap& lens) {
     Reach reach;
     std::mutex mutex;
     parallelFor(0, samples.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
         Reach local;
         for (std::size_t i = first; i < last; ++i) {
             if (lens.empty())
-                local.add(samples[i], seen);
+                local.add(samples[i], frame);
             else
-                local.add(samples[i], seen, lens);
+                local.add(samples[i], frame, lens);
         }
         const std::lock_guard lock(mutex);
         reach.add(local);
     });
-    int margin = int(std::ceil(2 / std::sqrt(double(samplesPerPixel)))) + 1;
+    const int radius = int(std::ceil(2 / std::sqrt(double(samplesPerPixel))));
+    // Even if the filter sees nothing beside the frame, what lies at its rim has neighbours.
+    const glm::ivec2 margin = radius + glm::max(filterReach, 1);
     wantedPx = 0;
-    auto side = [&](float pixels) {
-        int wanted = int(std::min(std::ceil(pixels), 1e9f)) + margin;
+    auto side = [&](float pixels, int marginPx) {
+        int wanted = int(std::min(std::ceil(pixels), 1e9f)) + marginPx;
         wantedPx = std::max(wantedPx, wanted);
         return std::min(wanted, limitPx);
     };
-    return {seen.x0 - side(reach.left), seen.y0 - side(reach.top), seen.x1 + side(reach.right),
-            seen.y1 + side(reach.bottom)};
+    return {frame.x0 - side(reach.left, margin.x), frame.y0 - side(reach.top, margin.y),
+            frame.x1 + side(reach.right, margin.x), frame.y1 + side(reach.bottom, margin.y)};
 }
 
 LightField traceLightField(const Tracer& tracer, const Scene& scene, const SampleOptions& options,
                            Monitor& monitor) {
     const int spp = options.samplesPerPixel;
     const Rect frame = scene.film.crop;
-    const Rect seen = filteredPixels(frame, scene.filter); // outputs of these pixels count
+    // Outputs of these pixels count; even if the filter sees none beside the frame, those at its rim have
+    // neighbours.
     const LensMap lensMap = tracer.camera().lensMap();
     auto trace = [&](Rect pixels, SampleSet& into) {
         tracer.trace(pixels, 0, spp, spp, options.seed, spansOf(into), monitor);
     };
-    requireBudget(fieldBytes(seen, options), seen, options);
-    SampleSet inSeen = samplesOf(seen, options);
-    monitor.beginStage("trace", std::uint64_t(seen.area()) * std::uint64_t(spp), "samples");
-    trace(seen, inSeen);
+    requireBudget(fieldBytes(frame, options), frame, options);
+    SampleSet inFrame = samplesOf(frame, options);
+    monitor.beginStage("trace", std::uint64_t(frame.area()) * std::uint64_t(spp), "samples");
+    trace(frame, inFrame);
     monitor.endStage();
 
     int limit = std::max(scene.film.xResolution, scene.film.yResolution) / 2, wanted = 0;
-    const Rect bounds = boundsWithOverscan(seen, inSeen.samples, spp, limit, wanted, lensMap);
+    const Rect bounds =
+        boundsWithOverscan(frame, filterReach(scene.filter), inFrame.samples, spp, limit, wanted, lensMap);
     if (wanted > limit)
         monitor.warn(
             fmt::format("blur reaches {} pixels beyond the frame; the overscan is limited to {} pixels, so "
                         "borders may lack what enters from farther out",
                         wanted, limit));
-    requireBudget(fieldBytes(bounds, options) + fieldBytes(seen, options), bounds, options);
+    requireBudget(fieldBytes(bounds, options) + fieldBytes(frame, options), bounds, options);
     LightField field{samplesOf(bounds, options), bounds,  frame, spp, tracer.camera().slopeModel(),
                      tracer.camera().aperture(), lensMap, {}};
-    copyRows(inSeen, seen, field, bounds, spp);
-    monitor.beginStage("trace overscan", std::uint64_t(bounds.area() - seen.area()) * std::uint64_t(spp),
+    copyRows(inFrame, frame, field, bounds, spp);
+    monitor.beginStage("trace overscan", std::uint64_t(bounds.area() - frame.area()) * std::uint64_t(spp),
                        "samples");
     const std::array<Rect, 4> ring{
-        Rect{bounds.x0, bounds.y0, bounds.x1, seen.y0}, Rect{bounds.x0, seen.y0, seen.x0, seen.y1},
-        Rect{seen.x1, seen.y0, bounds.x1, seen.y1}, Rect{bounds.x0, seen.y1, bounds.x1, bounds.y1}};
+        Rect{bounds.x0, bounds.y0, bounds.x1, frame.y0}, Rect{bounds.x0, frame.y0, frame.x0, frame.y1},
+        Rect{frame.x1, frame.y0, bounds.x1, frame.y1}, Rect{bounds.x0, frame.y1, bounds.x1, bounds.y1}};
     for (Rect part : ring) {
         SampleSet samples = samplesOf(part, options);
         trace(part, samples);

@@ -5,16 +5,17 @@
 
 namespace slant {
 
-/// Traces Film::crop and the reach of the pixel filter around it, whose outputs count; then an overscan on
-/// each side as wide as the trajectory of any sample there reaches beyond them, plus the reconstruction
-/// radius; at most half of the film's longer side (then it warns). Throws Error(resources) when the samples
-/// do not fit the budget or memory, before tracing them.
+/// Traces Film::crop, then an overscan on each side as wide as any seen sample's trajectory reaches beyond
+/// it, plus the reach of the pixel filter and the reconstruction radius; at most half of the film's longer
+/// side (then it warns). Throws Error(resources) when the samples do not fit the budget or memory, before
+/// tracing them.
 LightField traceLightField(const Tracer& tracer, const Scene& scene, const SampleOptions& options,
                            Monitor& monitor);
 
-/// The bounds for pixels whose samples are given (any order); sides of the overscan are at most `limitPx`.
-/// Sets `wantedPx` to the widest side that would be needed.
-Rect boundsWithOverscan(Rect seen, std::span<const LightFieldSample> samples, int samplesPerPixel,
-                        int limitPx, int& wantedPx, const LensMap& lens = {});
+/// The bounds for a frame whose samples are given (any order), seen through a pixel filter that reaches so
+/// many pixels to each side; sides of the overscan are at most `limitPx`. Sets `wantedPx` to the widest side
+/// that would be needed.
+Rect boundsWithOverscan(Rect frame, glm::ivec2 filterReach, std::span<const LightFieldSample> samples,
+                        int samplesPerPixel, int limitPx, int& wantedPx, const LensMap& lens = {});
 
 } // namespace slant

@@ -193,8 +193,8 @@ TEST(SamplePass, OverscanReachesAsFarAsTheBlur) {
     EXPECT_TRUE(monitor.warnings.empty());
     // The wall fills most of the border. A trajectory there reaches once its slope beyond the frame at least,
     // and twice that when it was seen from the far side of the lens; nothing is more blurred than the ball.
-    // Then 2 / sqrt(4) + 1, and 1 for the pixel filter.
-    int least = int(field.slopeModel(12)) + 3, widest = int(std::ceil(-2 * field.slopeModel(2.4f))) + 3;
+    // Then 2 / sqrt(4), and 1 for the pixel filter.
+    int least = int(field.slopeModel(12)) + 2, widest = int(std::ceil(-2 * field.slopeModel(2.4f))) + 2;
     for (int side : {field.frame.x0 - field.bounds.x0, field.frame.y0 - field.bounds.y0,
                      field.bounds.x1 - field.frame.x1, field.bounds.y1 - field.frame.y1}) {
         EXPECT_GE(side, least);
@@ -214,7 +214,7 @@ TEST(SamplePass, OverscanIsLimitedWithAWarning) {
     RecordingMonitor monitor;
     Tracer tracer(scene, monitor);
     LightField field = traceLightField(tracer, scene, {1}, monitor);
-    EXPECT_EQ(field.bounds, field.frame.expand(17)) << "with the reach of the filter";
+    EXPECT_EQ(field.bounds, field.frame.expand(16));
     ASSERT_EQ(monitor.warnings.size(), 1u);
     EXPECT_NE(monitor.warnings[0].find("16"), std::string::npos);
 }
@@ -224,11 +224,24 @@ TEST(SamplePass, BoundsFollowTheFurthestTrajectoryOnEachSide) {
     s.x = 2.5f, s.y = 5.5f, s.u = 0.5f, s.slope = -3;
     int wanted = 0;
     // The trajectory's disc: centre (4, 5.5), radius 3.
-    Rect bounds = boundsWithOverscan({2, 3, 10, 8}, {{s}}, 16, 100, wanted);
-    EXPECT_EQ(bounds, (Rect{2 - 3, 3 - 3, 10 + 2, 8 + 3}));
-    EXPECT_EQ(wanted, 3);
+    Rect bounds = boundsWithOverscan({2, 3, 10, 8}, {0, 5}, {{s}}, 16, 100, wanted);
+    EXPECT_EQ(bounds, (Rect{2 - 3, 3 - 7, 10 + 2, 8 + 7}));
+    EXPECT_EQ(wanted, 7);
     s.slope = NAN;
-    EXPECT_EQ(boundsWithOverscan({2, 3, 10, 8}, {{s}}, 16, 100, wanted), (Rect{2, 3, 10, 8}.expand(2)));
+    EXPECT_EQ(boundsWithOverscan({2, 3, 10, 8}, {1, 1}, {{s}}, 16, 100, wanted),
+              (Rect{2, 3, 10, 8}.expand(2)));
+}
+
+TEST(SamplePass, OverscanHoldsWhatTheFilterSees) {
+    Scene scene = ballScene(32, 24); // through a pinhole
+    SilentMonitor monitor;
+    Tracer tracer(scene, monitor);
+    for (const auto& [radius, reach] : {std::pair(0.5f, 1), {1.5f, 1}, {1.6f, 2}, {8.f, 8}}) {
+        scene.filter.radius = {radius, 0.5f};
+        const LightField field = traceLightField(tracer, scene, {4}, monitor);
+        EXPECT_EQ(field.bounds, (Rect{-reach - 1, -2, 32 + reach + 1, 24 + 2})) << radius;
+        EXPECT_EQ(field.frame, scene.film.crop);
+    }
 }
 
 TEST(SamplePass, RefusesWhatDoesNotFitTheBudget) {
