@@ -233,7 +233,8 @@ TEST(SamplePass, BoundsFollowTheFurthestTrajectoryOnEachSide) {
 }
 
 TEST(SamplePass, OverscanHoldsWhatTheFilterSees) {
-    Scene scene = ballScene(32, 24); // through a pinhole
+    Scene scene = ballScene(32, 24);
+    scene.camera.lensRadius = 0;
     SilentMonitor monitor;
     Tracer tracer(scene, monitor);
     for (const auto& [radius, reach] : {std::pair(0.5f, 1), {1.5f, 1}, {1.6f, 2}, {8.f, 8}}) {
