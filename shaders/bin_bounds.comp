@@ -3,8 +3,8 @@
 // (greatest ones by their complement, floats by their ordered bits), so that atomics give the same in every
 // order.
 #extension GL_GOOGLE_include_directive : require
-#include "resources/invocation.glsl"
 #include "lib/ordered_float.glsl"
+#include "resources/invocation.glsl"
 #include "shared/reconstruct.h"
 
 layout(local_size_x = 64) in;
@@ -14,7 +14,9 @@ layout(set = 0, binding = 2) uniform utextureBuffer brickOfRecord; // prefix sum
 layout(set = 0, binding = 3, r32ui) uniform uimageBuffer bounds;   // kBoundWords a brick
 layout(set = 0, binding = 4, r32ui) uniform writeonly uimageBuffer brickKeys;
 layout(set = 0, binding = 5) uniform textureBuffer values;
-layout(push_constant) uniform Push { BinPush push; };
+layout(push_constant) uniform Push {
+    BinPush push;
+};
 
 void lower(int word, uint value) {
     // Reading first spares most of the atomics: what is read can only be behind, never past.
@@ -22,11 +24,13 @@ void lower(int word, uint value) {
 }
 
 void main() {
-    const uint i = linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
+    const uint i =
+        linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
     if (i >= push.count) return;
     const uint before = texelFetch(brickOfRecord, int(i)).x, after = texelFetch(brickOfRecord, int(i) + 1).x;
     const uint side = uint(push.grid.cellsPerBrick);
-    const uint key = texelFetch(keys, int(i)).x, brickKey = key / (side * side), cell = key - brickKey * side * side;
+    const uint key = texelFetch(keys, int(i)).x, brickKey = key / (side * side),
+               cell = key - brickKey * side * side;
     const uint row = cell / side, column = cell - row * side;
     const uint slope = orderedBits(texelFetch(positions, int(i)).z);
     const int word = (int(after) - 1) * int(kBoundWords);

@@ -2,9 +2,9 @@
 // The occupied bricks: place from the key, bounds as bin_bounds gathered them; and where in cellStart their
 // cell at the grid's origin would stand (modulo 2^32), so that cells are found without dividing.
 #extension GL_GOOGLE_include_directive : require
-#include "resources/invocation.glsl"
 #include "lib/grid.glsl"
 #include "lib/ordered_float.glsl"
+#include "resources/invocation.glsl"
 #include "shared/reconstruct.h"
 
 layout(local_size_x = 64) in;
@@ -12,10 +12,13 @@ layout(set = 0, binding = 0) uniform utextureBuffer brickKeys;
 layout(set = 0, binding = 1) uniform utextureBuffer bounds;
 layout(set = 0, binding = 2, rgba32ui) uniform writeonly uimageBuffer bricks;
 layout(set = 0, binding = 3, r32ui) uniform writeonly uimageBuffer cellBases;
-layout(push_constant) uniform Push { BinPush push; };
+layout(push_constant) uniform Push {
+    BinPush push;
+};
 
 void main() {
-    const uint i = linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
+    const uint i =
+        linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
     if (i >= push.count) return;
     const int key = int(texelFetch(brickKeys, int(i)).x), word = int(i * kBoundWords);
     const ivec2 count = push.grid.brickCount;
@@ -26,6 +29,7 @@ void main() {
     const uvec2 first = corner + uvec2(texelFetch(bounds, word + 2).x, texelFetch(bounds, word + 3).x);
     const uvec2 last = corner + uvec2(~texelFetch(bounds, word + 4).x, ~texelFetch(bounds, word + 5).x);
     const uvec2 extent = brickExtent(first, last, uintBitsToFloat(texelFetch(bounds, word + 6).x));
-    imageStore(bricks, int(i),
-               uvec4(extent, floatBits(texelFetch(bounds, word).x), floatBits(~texelFetch(bounds, word + 1).x)));
+    imageStore(
+        bricks, int(i),
+        uvec4(extent, floatBits(texelFetch(bounds, word).x), floatBits(~texelFetch(bounds, word + 1).x)));
 }

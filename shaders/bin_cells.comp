@@ -9,13 +9,18 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform utextureBuffer keys;
 layout(set = 0, binding = 1) uniform utextureBuffer brickKeys;
 layout(set = 0, binding = 2, r32ui) uniform writeonly uimageBuffer cellStart;
-layout(push_constant) uniform Push { BinPush push; };
+layout(push_constant) uniform Push {
+    BinPush push;
+};
 
-uint keyAt(uint i) { return texelFetch(keys, int(i)).x; }
+uint keyAt(uint i) {
+    return texelFetch(keys, int(i)).x;
+}
 #include "lib/lower_bound.glsl"
 
 void main() {
-    const uint row = linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
+    const uint row =
+        linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
     const uint side = uint(push.grid.cellsPerBrick), records = push.grid.sampleCount, brick = row / side;
     if (row == 0u) imageStore(cellStart, int(push.brickTotal * side * side), uvec4(records));
     if (brick >= push.brickTotal) return;

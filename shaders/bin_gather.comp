@@ -15,10 +15,13 @@ layout(set = 0, binding = 4, rgba32f) uniform writeonly imageBuffer positions;
 layout(set = 0, binding = 5, rgba32f) uniform writeonly imageBuffer values; // the last alone
 layout(set = 0, binding = 6, r32ui) uniform writeonly uimageBuffer brickBegins;
 layout(set = 0, binding = 7) uniform utextureBuffer stopped;
-layout(push_constant) uniform Push { BinPush push; };
+layout(push_constant) uniform Push {
+    BinPush push;
+};
 
 void main() {
-    const uint i = linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
+    const uint i =
+        linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
     if (i > push.count) return;
     if (i == push.count) { // so that the prefix sum ends with the number of bricks
         imageStore(brickBegins, int(i), uvec4(0u));
@@ -28,7 +31,8 @@ void main() {
     const vec4 position = texelFetch(samplePositions, index);
     const int block = blockOf(push.occlusion, position.xy, position.z, push.grid.origin);
     const float excess = kCompoundLens ? texelFetch(areaExcess, index).x : 0.0;
-    const float weight = visibilityWeight(push.occlusion, texelFetch(stopped, block).x, position.w / sqrt(1.0 + excess));
+    const float weight =
+        visibilityWeight(push.occlusion, texelFetch(stopped, block).x, position.w / sqrt(1.0 + excess));
     imageStore(positions, int(i), vec4(position.xyz, weight));
     imageStore(values, int(i), vec4(vec3(0.0), position.w));
     const uint cells = uint(push.grid.cellsPerBrick * push.grid.cellsPerBrick);

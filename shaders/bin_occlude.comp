@@ -8,17 +8,21 @@
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform textureBuffer samples; // two texels a sample: LightFieldSample
 layout(set = 0, binding = 1, r32ui) uniform uimageBuffer stopped;
-layout(push_constant) uniform Push { BinPush push; };
+layout(push_constant) uniform Push {
+    BinPush push;
+};
 
 void main() {
-    const uint i = linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
+    const uint i =
+        linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
     if (i >= push.count) return;
     const OcclusionLayout planes = push.occlusion;
     const vec4 place = texelFetch(samples, int(2u * i));
     const float slope = texelFetch(samples, int(2u * i + 1u)).z;
     if (!isFollowed(planes, place.xy) || !(abs(slope) < kFarPx)) return; // disabled ones are far
     const vec2 origin = push.grid.origin;
-    for (int plane = firstPlaneBehind(planes, slope, push.grid.surfaceGap); plane < planes.planeCount; ++plane) {
+    for (int plane = firstPlaneBehind(planes, slope, push.grid.surfaceGap); plane < planes.planeCount;
+         ++plane) {
         const int block =
             blockCrossed(planes, plane, pinholeOf(place.xy, place.zw, planeSlope(planes, plane)), origin);
         if (block >= 0) imageAtomicAdd(stopped, block, 1u);

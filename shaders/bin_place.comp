@@ -10,13 +10,18 @@ layout(set = 0, binding = 1, rgba32f) uniform writeonly imageBuffer positions;
 layout(set = 0, binding = 2, r32ui) uniform writeonly uimageBuffer keys;
 layout(set = 0, binding = 3, r32ui) uniform writeonly uimageBuffer indices;
 layout(set = 0, binding = 4) uniform utextureBuffer pixelSums;
-layout(push_constant) uniform Push { BinPush push; };
+layout(push_constant) uniform Push {
+    BinPush push;
+};
 
-uint sumAt(uint i) { return texelFetch(pixelSums, int(i)).x; }
+uint sumAt(uint i) {
+    return texelFetch(pixelSums, int(i)).x;
+}
 #include "lib/density.glsl"
 
 void main() {
-    const uint i = linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
+    const uint i =
+        linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
     if (i >= push.count) return;
     const vec4 place = texelFetch(samples, int(2u * i));
     const Trajectory trajectory = trajectoryOf(place.xy, place.zw, texelFetch(samples, int(2u * i + 1u)).z);

@@ -9,12 +9,17 @@ layout(set = 0, binding = 0) uniform textureBuffer tracedPositions;
 layout(set = 0, binding = 1) uniform utextureBuffer tracedBricks;
 layout(set = 0, binding = 2, rgba32f) uniform writeonly imageBuffer positions;
 layout(set = 0, binding = 3, rgba32ui) uniform writeonly uimageBuffer bricks;
-layout(push_constant) uniform Push { RefocusPush push; };
+layout(push_constant) uniform Push {
+    RefocusPush push;
+};
 
-uint shifted(uint slope) { return floatBitsToUint(uintBitsToFloat(slope) + push.slopeShift); }
+uint shifted(uint slope) {
+    return floatBitsToUint(uintBitsToFloat(slope) + push.slopeShift);
+}
 
 void main() {
-    const uint i = linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
+    const uint i =
+        linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
     if (i < push.recordCount) {
         const vec4 position = texelFetch(tracedPositions, int(i));
         imageStore(positions, int(i), vec4(position.xy, position.z + push.slopeShift, position.w));

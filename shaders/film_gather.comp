@@ -7,7 +7,9 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0) uniform textureBuffer spread;
 layout(set = 0, binding = 1, rgba32f) uniform imageBuffer film;
-layout(push_constant) uniform Push { FilterPush push; };
+layout(push_constant) uniform Push {
+    FilterPush push;
+};
 #include "resources/film_taps.glsl"
 
 void main() {

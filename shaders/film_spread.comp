@@ -8,10 +8,14 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0) uniform textureBuffer dense;
 layout(set = 0, binding = 1) uniform textureBuffer weights;
 layout(set = 0, binding = 2, rgba32f) uniform writeonly imageBuffer spread; // kTaps a pixel, row by row
-layout(push_constant) uniform Push { FilterPush push; };
+layout(push_constant) uniform Push {
+    FilterPush push;
+};
 #include "resources/film_taps.glsl"
 
-float filterWeightAt(int i) { return texelFetch(weights, i).x; }
+float filterWeightAt(int i) {
+    return texelFetch(weights, i).x;
+}
 #include "lib/film.glsl"
 
 vec4 sums[kTaps];
@@ -34,7 +38,8 @@ void setMeans() {
 void addWhole(vec4 samp) {
     for (int row = 0; row < kRows; ++row)
         for (int column = 0; column < kColumns; ++column)
-            sums[row * kColumns + column] += weighted(samp, float(push.groupSize) * (meanX[column] * meanY[row]));
+            sums[row * kColumns + column] +=
+                weighted(samp, float(push.groupSize) * (meanX[column] * meanY[row]));
 }
 
 void addOwn(vec4 samp, float scale) {

@@ -14,7 +14,9 @@ struct LayerTexel {
     int count;
 };
 
-LayerTexel noLayers() { return LayerTexel(uvec4(kNoLayerWords, kNoLayerWords), 0); }
+LayerTexel noLayers() {
+    return LayerTexel(uvec4(kNoLayerWords, kNoLayerWords), 0);
+}
 
 void keepLayer(vec3 rgb, float coverage, float slope, SlopeCode code, inout LayerTexel texel) {
     const uvec2 words = packLayer(rgb, coverage, slope, code);
@@ -37,8 +39,9 @@ void main() {
     bool complete = true;
     for (int reach = 1; reach <= 2 && sweep.texel.count > 1; ++reach) {
         sweep = newSweep(push.grid, push.baseRadiusPx, float(side), slopeCode(push.grid));
-        const int steps = forEachCandidate(push.grid, outputOnFilm(p, vec2(0.0), 0.0, 0.0),
-                                           float(reach) * push.baseRadiusPx, sweep.maxRadiusRatio, begin, end, sweep);
+        const int steps =
+            forEachCandidate(push.grid, outputOnFilm(p, vec2(0.0), 0.0, 0.0),
+                             float(reach) * push.baseRadiusPx, sweep.maxRadiusRatio, begin, end, sweep);
         complete = complete && steps <= kMaxSteps;
         if (sweep.surface.count > 0) close(sweep, true);
     }

@@ -11,20 +11,25 @@ layout(set = 0, binding = 1) uniform utextureBuffer listBricks;
 layout(set = 0, binding = 2) uniform textureBuffer lensBoxes;
 layout(set = 0, binding = 3, r32ui) uniform writeonly uimageBuffer classes;
 layout(set = 0, binding = 4, rgba32f) uniform writeonly imageBuffer clusters; // from the list's start on
-layout(set = 0, binding = 5, r32ui) uniform writeonly uimageBuffer missed;     // two a list
-layout(push_constant) uniform Push { MapLookupPush push; };
+layout(set = 0, binding = 5, r32ui) uniform writeonly uimageBuffer missed;    // two a list
+layout(push_constant) uniform Push {
+    MapLookupPush push;
+};
 
 uint listBegin; // of this invocation's list
 
 #define mapLayout push.map
-Brick listedBrick(uint entry) { return brickOf(texelFetch(listBricks, int(entry))); }
+Brick listedBrick(uint entry) {
+    return brickOf(texelFetch(listBricks, int(entry)));
+}
 void keepCluster(uint i, Cluster cluster) {
     imageStore(clusters, int(listBegin + i), vec4(cluster.slopeMin, cluster.slopeMax, cluster.level, 0.0));
 }
 #include "lib/classify.glsl"
 
 void main() {
-    const uint list = linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
+    const uint list =
+        linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
     if (list >= push.count) return;
     const uint tiles = uint(push.outputs.tileCount.x) * uint(push.outputs.tileCount.y);
     const vec4 box = texelFetch(lensBoxes, int(push.firstGroup + list / tiles));

@@ -9,13 +9,18 @@ layout(set = 0, binding = 0) uniform utextureBuffer bricks;
 layout(set = 0, binding = 1) uniform textureBuffer lensBoxes;
 layout(set = 0, binding = 2, r32ui) uniform writeonly uimageBuffer counts;
 layout(set = 0, binding = 3) uniform textureBuffer lensTiles;
-layout(push_constant) uniform Push { OutputPush push; };
+layout(push_constant) uniform Push {
+    OutputPush push;
+};
 
-float lensTileBoundAt(int i) { return texelFetch(lensTiles, i).x; }
+float lensTileBoundAt(int i) {
+    return texelFetch(lensTiles, i).x;
+}
 #include "resources/tiles_of_brick.glsl"
 
 void main() {
-    const uint i = linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
+    const uint i =
+        linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
     if (i > push.count) return;
     uint tiles = 0u;
     if (i < push.count) {

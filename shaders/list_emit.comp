@@ -13,22 +13,29 @@ layout(set = 0, binding = 2) uniform utextureBuffer offsets; // of (group, brick
 layout(set = 0, binding = 3, r32ui) uniform writeonly uimageBuffer lists;
 layout(set = 0, binding = 4, r32ui) uniform writeonly uimageBuffer listIds;
 layout(set = 0, binding = 5) uniform textureBuffer lensTiles;
-layout(push_constant) uniform Push { OutputPush push; };
+layout(push_constant) uniform Push {
+    OutputPush push;
+};
 
-float lensTileBoundAt(int i) { return texelFetch(lensTiles, i).x; }
+float lensTileBoundAt(int i) {
+    return texelFetch(lensTiles, i).x;
+}
 #include "resources/tiles_of_brick.glsl"
 
-uint keyAt(uint i) { return texelFetch(offsets, int(i)).x; }
+uint keyAt(uint i) {
+    return texelFetch(offsets, int(i)).x;
+}
 #include "lib/lower_bound.glsl"
 
 void main() {
-    const uint i = linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
+    const uint i =
+        linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
     if (i >= push.count) return;
     const uint pair = lowerBound(i + 1u, 0u, push.groupCount * push.brickTotal + 1u) - 1u;
     const uint group = pair / push.brickTotal, brick = pair - group * push.brickTotal;
     const vec4 box = texelFetch(lensBoxes, int(push.firstGroup + group));
-    const ivec4 range =
-        tilesOfBrick(brickOf(texelFetch(bricks, int(brick))), push.grid, push.outputs, box, int(group), push.marginPx);
+    const ivec4 range = tilesOfBrick(brickOf(texelFetch(bricks, int(brick))), push.grid, push.outputs, box,
+                                     int(group), push.marginPx);
     const int place = int(i - keyAt(pair)), width = range.z - range.x;
     const ivec2 tile = range.xy + ivec2(place % width, place / width);
     const ivec2 tiles = push.outputs.tileCount;

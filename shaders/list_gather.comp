@@ -10,10 +10,13 @@ layout(set = 0, binding = 1) uniform utextureBuffer bricks;
 layout(set = 0, binding = 2) uniform utextureBuffer cellBases;
 layout(set = 0, binding = 3, rgba32ui) uniform writeonly uimageBuffer listBricks;
 layout(set = 0, binding = 4, r32ui) uniform writeonly uimageBuffer listCellBases;
-layout(push_constant) uniform Push { OutputPush push; };
+layout(push_constant) uniform Push {
+    OutputPush push;
+};
 
 void main() {
-    const uint i = linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
+    const uint i =
+        linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
     if (i >= push.count) return;
     const int id = int(texelFetch(ids, int(i)).x);
     imageStore(listBricks, int(i), texelFetch(bricks, id));

@@ -14,10 +14,14 @@ layout(set = 0, binding = 4) uniform utextureBuffer pattern;
 layout(set = 0, binding = 5) uniform utextureBuffer classes;
 layout(set = 0, binding = 6, rgba32f) uniform writeonly imageBuffer dense;
 layout(set = 0, binding = 7, r32ui) uniform uimageBuffer missed; // two a list: a bit for each pixel
-layout(push_constant) uniform Push { MapLookupPush push; };
+layout(push_constant) uniform Push {
+    MapLookupPush push;
+};
 
 #define mapLayout push.map
-uvec4 mapTexelAt(int i) { return texelFetch(texels, i); }
+uvec4 mapTexelAt(int i) {
+    return texelFetch(texels, i);
+}
 Cluster clusterAt(int i) {
     const vec3 cluster = texelFetch(clusters, i).xyz;
     return Cluster(cluster.x, cluster.y, cluster.z);
@@ -35,13 +39,15 @@ void miss(int list, uint clusterCount) {
 void main() {
     const uvec3 tile = gl_WorkGroupID;
     const ivec2 position = ivec2(gl_GlobalInvocationID.xy), size = push.outputs.regionSize;
-    const int list = (int(tile.z) * push.outputs.tileCount.y + int(tile.y)) * push.outputs.tileCount.x + int(tile.x);
+    const int list =
+        (int(tile.z) * push.outputs.tileCount.y + int(tile.y)) * push.outputs.tileCount.x + int(tile.x);
     const uint listClass = texelFetch(classes, list).x, clusterCount = listClass & (kInFocusBit - 1u);
     if (clusterCount == 0u) return;
     const bool inFocus = (listClass & kInFocusBit) != 0u, sparse = (listClass & kSparseBit) != 0u;
     const int groupSize = 1 << push.groupBits, taken = sparse ? 1 << push.sparseBits : groupSize;
     const int clusterBegin = int(texelFetch(listStart, list).x);
-    const int firstOutput = (int(push.firstGroup) + int(tile.z)) * groupSize, firstPlane = int(tile.z) * groupSize;
+    const int firstOutput = (int(push.firstGroup) + int(tile.z)) * groupSize,
+              firstPlane = int(tile.z) * groupSize;
     const ivec2 pixel = push.outputs.regionOrigin + position;
     // Positions outside the region are looked at too: whether a list is served must not depend on bands.
     const bool inRegion = position.x < size.x && position.y < size.y;
@@ -56,7 +62,8 @@ void main() {
                 o = placed(pixel, texelFetch(pattern, firstOutput + i), seedOf(pixel, push.outputs.seed));
                 sum = vec3(0.0);
             }
-            if (!look(o.xy, texelFetch(lensPoints, firstOutput + i).xy, clusterBegin, int(clusterCount), sum)) {
+            if (!look(o.xy, texelFetch(lensPoints, firstOutput + i).xy, clusterBegin, int(clusterCount),
+                      sum)) {
                 miss(list, clusterCount);
                 return;
             }
@@ -66,5 +73,6 @@ void main() {
             imageStore(dense, ((firstPlane + i) * size.y + position.y) * size.x + position.x, value);
     }
     if (!inFocus && inRegion)
-        imageStore(dense, (firstPlane * size.y + position.y) * size.x + position.x, vec4(sum / float(taken), kWholePixel));
+        imageStore(dense, (firstPlane * size.y + position.y) * size.x + position.x,
+                   vec4(sum / float(taken), kWholePixel));
 }

@@ -5,7 +5,9 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, rgba32ui) uniform uimageBuffer texels;
-layout(push_constant) uniform Push { ReducePush push; };
+layout(push_constant) uniform Push {
+    ReducePush push;
+};
 
 void main() {
     const ivec2 place = ivec2(gl_GlobalInvocationID.xy), below = push.size, size = below / 2;

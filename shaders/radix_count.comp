@@ -7,7 +7,9 @@
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform utextureBuffer keys;
 layout(set = 0, binding = 1, r32ui) uniform writeonly uimageBuffer histogram;
-layout(push_constant) uniform Push { RadixPush push; };
+layout(push_constant) uniform Push {
+    RadixPush push;
+};
 
 void main() {
     const uint chunk =

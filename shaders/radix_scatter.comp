@@ -12,7 +12,9 @@ layout(set = 0, binding = 1) uniform utextureBuffer valuesBefore;
 layout(set = 0, binding = 2) uniform utextureBuffer offsets;
 layout(set = 0, binding = 3, r32ui) uniform writeonly uimageBuffer keysAfter;
 layout(set = 0, binding = 4, r32ui) uniform writeonly uimageBuffer valuesAfter;
-layout(push_constant) uniform Push { RadixPush push; };
+layout(push_constant) uniform Push {
+    RadixPush push;
+};
 
 void main() {
     const uint chunk =

@@ -8,7 +8,9 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform utextureBuffer offsets;
 layout(set = 0, binding = 1) uniform utextureBuffer itemsBefore;
 layout(set = 0, binding = 2, r32ui) uniform writeonly uimageBuffer itemsAfter; // the same buffer
-layout(push_constant) uniform Push { ScanPush push; };
+layout(push_constant) uniform Push {
+    ScanPush push;
+};
 
 void main() {
     const uint chunk =

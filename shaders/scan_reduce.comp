@@ -7,7 +7,9 @@
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform utextureBuffer items;
 layout(set = 0, binding = 1, r32ui) uniform writeonly uimageBuffer sums;
-layout(push_constant) uniform Push { ScanPush push; };
+layout(push_constant) uniform Push {
+    ScanPush push;
+};
 
 void main() {
     const uint chunk =

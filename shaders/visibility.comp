@@ -16,13 +16,17 @@ layout(set = 0, binding = 11, r32ui) uniform writeonly uimageBuffer overflowList
 layout(set = 0, binding = 12) uniform textureBuffer apertureTable;
 layout(set = 0, binding = 13) uniform textureBuffer lensMap;
 
-float apertureAt(int i) { return texelFetch(apertureTable, i).x; }
-vec4 lensMapAt(int texel) { return texelFetch(lensMap, texel); }
+float apertureAt(int i) {
+    return texelFetch(apertureTable, i).x;
+}
+vec4 lensMapAt(int texel) {
+    return texelFetch(lensMap, texel);
+}
 #include "lib/aperture.glsl"
 #include "lib/lens_map.glsl"
 #include "lib/output_pattern.glsl"
-#include "lib/visibility.glsl"
 #include "lib/search.glsl"
+#include "lib/visibility.glsl"
 
 void main() {
     const uint invocation =

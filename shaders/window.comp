@@ -2,12 +2,13 @@
 // Dense samples from a fixed window of pixels. One invocation an output; neighbours in x are neighbours in a
 // vector, and their windows have the same size.
 #extension GL_GOOGLE_include_directive : require
+#include "shared/window.h"
 #include "resources/compound_lens.glsl"
 #include "resources/invocation.glsl"
-#include "shared/window.h"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0) uniform textureBuffer positions; // p.x, p.y, slope, square of its radius; in pixel order
+layout(set = 0,
+       binding = 0) uniform textureBuffer positions; // p.x, p.y, slope, square of its radius; in pixel order
 layout(set = 0, binding = 1) uniform textureBuffer values;
 layout(set = 0, binding = 2) uniform utextureBuffer pattern;
 layout(set = 0, binding = 3, rgba32f) uniform writeonly imageBuffer dense;
@@ -16,13 +17,25 @@ layout(set = 0, binding = 5, r32ui) uniform writeonly uimageBuffer overflowList;
 layout(set = 0, binding = 6) uniform textureBuffer apertureTable;
 layout(set = 0, binding = 7) uniform utextureBuffer pixelStart;
 layout(set = 0, binding = 8) uniform textureBuffer lensMap;
-layout(push_constant) uniform Push { WindowPush push; };
+layout(push_constant) uniform Push {
+    WindowPush push;
+};
 
-float apertureAt(int i) { return texelFetch(apertureTable, i).x; }
-vec4 lensMapAt(int texel) { return texelFetch(lensMap, texel); }
-vec4 positionAt(uint record) { return texelFetch(positions, int(record)); }
-vec4 valueAt(uint record) { return texelFetch(values, int(record)); }
-uint pixelStartAt(int pixel) { return texelFetch(pixelStart, pixel).x; }
+float apertureAt(int i) {
+    return texelFetch(apertureTable, i).x;
+}
+vec4 lensMapAt(int texel) {
+    return texelFetch(lensMap, texel);
+}
+vec4 positionAt(uint record) {
+    return texelFetch(positions, int(record));
+}
+vec4 valueAt(uint record) {
+    return texelFetch(values, int(record));
+}
+uint pixelStartAt(int pixel) {
+    return texelFetch(pixelStart, pixel).x;
+}
 #include "lib/aperture.glsl"
 #include "lib/lens_map.glsl"
 #include "lib/output_pattern.glsl"
@@ -58,7 +71,9 @@ void sortCandidates(int count) {
 }
 #include "lib/window.glsl"
 
-void count(uint counter) { imageAtomicAdd(counters, int(counter), 1u); }
+void count(uint counter) {
+    imageAtomicAdd(counters, int(counter), 1u);
+}
 
 void main() {
     const uint slot =
@@ -70,7 +85,8 @@ void main() {
     const uint k = slot / (size.x * size.y), place = slot - k * (size.x * size.y);
     const ivec2 pixel = outputs.regionOrigin + ivec2(place % size.x, place / size.x);
     const int index = push.firstOutput + int(k);
-    Output o = outputAt(pixel, index, texelFetch(pattern, index), push.lensCells, push.lensScale, outputs.seed);
+    Output o =
+        outputAt(pixel, index, texelFetch(pattern, index), push.lensCells, push.lensScale, outputs.seed);
     if (kCompoundLens) {
         toSceneSide(o, sceneRay(o.xy, o.uv));
         if (!(o.weight > 0.0)) { // the film is dark

@@ -20,7 +20,7 @@ say "Debian packages"
 cmake/install_packages.sh
 
 say "Formatting"
-find host tests shaders -name '*.cpp' -o -name '*.h' | xargs clang-format --dry-run --Werror
+tests/format.sh
 echo "as .clang-format has it"
 
 # One driver for every machine, so that a GPU driver's arithmetic cannot decide a comparison to the bit.

@@ -2,10 +2,12 @@
 //
 // Needs, declared before the include: apertureAt(int), which reads Aperture::table(). In C++ it is included
 // in a struct that has that, after lib/disc.glsl.
-#include "lib/disc.glsl"
 #include "shared/aperture.h"
+#include "lib/disc.glsl"
 
-KERNEL vec2 apertureCorner(int i) { return vec2(apertureAt(1 + 2 * i), apertureAt(2 + 2 * i)); }
+KERNEL vec2 apertureCorner(int i) {
+    return vec2(apertureAt(1 + 2 * i), apertureAt(2 + 2 * i));
+}
 
 /// The entry of a cumulative table, from `first` on, that a number in [0, 1) falls into; `entries` is a power
 /// of two.
@@ -23,7 +25,9 @@ KERNEL float partAt(int first, int entry, float s) {
 }
 
 /// Where the cumulative light of a sector's rings begins.
-KERNEL int ringsOf(int sector) { return kApertureSectors + 2 + sector * (kApertureRings + 1); }
+KERNEL int ringsOf(int sector) {
+    return kApertureSectors + 2 + sector * (kApertureRings + 1);
+}
 
 /// Where in its rings the share `s` of the sector's light lies inwards.
 KERNEL float distanceAt(int rings, float s) {

@@ -9,8 +9,8 @@ struct Candidate {
     vec2 offset;     // from the output, pixels of the film
     float distance2; // as if its own radius were that of the search
     float slope;
-    float weight;  // see lib/occlusion.glsl
-    vec4 value; // rgb; R over its own radius
+    float weight; // see lib/occlusion.glsl
+    vec4 value;   // rgb; R over its own radius
 };
 
 /// Whether a place lies inside the convex hull of points, one at a time: it does where, seen from it, those
@@ -33,7 +33,9 @@ KERNEL void addPoint(INOUT(Hull) hull, vec2 offset) {
     hull.lower = above ? hull.lower : vec2(min(hull.lower.x, ratio), max(hull.lower.y, ratio));
 }
 
-KERNEL bool surrounds(IN(Hull) hull) { return hull.upper.y > hull.lower.x && hull.upper.x < hull.lower.y; }
+KERNEL bool surrounds(IN(Hull) hull) {
+    return hull.upper.y > hull.lower.x && hull.upper.x < hull.lower.y;
+}
 
 SLANT_SHARED_END
 #endif

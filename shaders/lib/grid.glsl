@@ -34,7 +34,9 @@ KERNEL uint sortKey(IN(GridLayout) grid, vec2 p, float slope) {
            uint(inside.x);
 }
 
-KERNEL ivec2 firstCell(IN(Brick) brick) { return ivec2(brick.firstCell & 0xffffu, brick.firstCell >> 16); }
+KERNEL ivec2 firstCell(IN(Brick) brick) {
+    return ivec2(brick.firstCell & 0xffffu, brick.firstCell >> 16);
+}
 KERNEL ivec2 lastCell(IN(Brick) brick) {
     return firstCell(brick) + ivec2(brick.extent & 63u, brick.extent >> 6 & 63u);
 }
@@ -47,9 +49,13 @@ KERNEL uvec2 brickExtent(uvec2 first, uvec2 last, float radiusRatio) {
 }
 
 /// Over R.
-KERNEL float widestRadius(IN(Brick) brick) { return float(brick.extent >> 12) * (1.0f / kRadiusSteps); }
+KERNEL float widestRadius(IN(Brick) brick) {
+    return float(brick.extent >> 12) * (1.0f / kRadiusSteps);
+}
 
-KERNEL int tileOf(float px) { return int(floor(clamp(px * (1.0f / float(kTileSize)), -1e6f, 1e6f))); }
+KERNEL int tileOf(float px) {
+    return int(floor(clamp(px * (1.0f / float(kTileSize)), -1e6f, 1e6f)));
+}
 
 /// Bricks of the rim reach to kFarPx.
 KERNEL BrickBox boxOf(IN(Brick) brick, IN(GridLayout) grid) {

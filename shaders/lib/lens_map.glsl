@@ -2,8 +2,8 @@
 //
 // Needs, declared before the include: lensMapAt(int), which reads the texels of the map. In C++ it is
 // included in a struct that has that.
-#include "shared/kernel.h"
 #include "shared/lens_map.h"
+#include "shared/kernel.h"
 
 KERNEL vec4 lensMapAlong(int index, float part) {
     const vec4 a = lensMapAt(index);

@@ -29,7 +29,9 @@ KERNEL Lookup lookUp(IN(Cluster) cluster) {
     return lookup;
 }
 
-KERNEL bool fits(IN(Lookup) lookup, float slope) { return slope >= lookup.low && slope <= lookup.high; }
+KERNEL bool fits(IN(Lookup) lookup, float slope) {
+    return slope >= lookup.low && slope <= lookup.high;
+}
 
 /// The foremost layer of a texel, counted from raster position 0, that belongs to the cluster; false without
 /// one.

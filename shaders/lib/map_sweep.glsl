@@ -52,4 +52,6 @@ KERNEL void visit(IN(Candidate) candidate, INOUT(Sweep) sweep) {
     addSample(sweep.surface, spread, sweep.radius);
 }
 
-KERNEL bool hides(IN(Sweep), IN(Brick)) { return false; }
+KERNEL bool hides(IN(Sweep), IN(Brick)) {
+    return false;
+}

@@ -15,7 +15,9 @@ SLANT_SHARED_CONSTANT uint kFloatBias = 127u;
 SLANT_SHARED_CONSTANT uint kExponentBias = 137u;
 SLANT_SHARED_CONSTANT uvec2 kNoLayerWords = uvec2(0u, kNoSlopeCode << 16);
 
-KERNEL float powerOfTwo(uint biased) { return uintBitsToFloat(biased << 23); }
+KERNEL float powerOfTwo(uint biased) {
+    return uintBitsToFloat(biased << 23);
+}
 
 /// Codes of the slopes that a grid tells apart.
 KERNEL SlopeCode slopeCode(IN(GridLayout) grid) {

@@ -39,6 +39,10 @@ KERNEL bool hides(IN(Sweep) sweep, IN(Brick) brick) {
 }
 
 /// Whether the surface that was found is what the output sees.
-KERNEL bool isTaken(IN(Sweep) sweep) { return sweep.running ? sweep.weightSum > 0.0f : isSolid(sweep); }
+KERNEL bool isTaken(IN(Sweep) sweep) {
+    return sweep.running ? sweep.weightSum > 0.0f : isSolid(sweep);
+}
 
-KERNEL vec3 valueOf(IN(Sweep) sweep) { return sweep.sum / sweep.weightSum; }
+KERNEL vec3 valueOf(IN(Sweep) sweep) {
+    return sweep.sum / sweep.weightSum;
+}

@@ -8,5 +8,7 @@ uint orderedBits(float x) {
 }
 
 /// The bits of the float again.
-uint floatBits(uint ordered) { return (ordered & 0x80000000u) != 0u ? ordered & 0x7fffffffu : ~ordered; }
+uint floatBits(uint ordered) {
+    return (ordered & 0x80000000u) != 0u ? ordered & 0x7fffffffu : ~ordered;
+}
 #endif

@@ -1,9 +1,9 @@
 // An output: its place in its pixel, and the way from film to scene.
 #ifndef SLANT_LIB_OUTPUT_GLSL
 #define SLANT_LIB_OUTPUT_GLSL
+#include "shared/output.h"
 #include "lib/hash.glsl"
 #include "shared/lens_map.h"
-#include "shared/output.h"
 #include "shared/reconstruct.h"
 
 SLANT_SHARED_BEGIN
@@ -41,7 +41,9 @@ KERNEL uint owenScramble(uint reversed, uint seed) {
     return bitfieldReverse(x);
 }
 
-KERNEL uint seedOf(ivec2 pixel, uint seed) { return hash(uint(pixel.x) + hash(uint(pixel.y) + hash(seed))); }
+KERNEL uint seedOf(ivec2 pixel, uint seed) {
+    return hash(uint(pixel.x) + hash(uint(pixel.y) + hash(seed)));
+}
 
 /// An output of a pixel, seen through the middle of the lens.
 KERNEL Output placed(ivec2 pixel, uvec4 entry, uint pixelSeed) {

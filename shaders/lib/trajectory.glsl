@@ -15,7 +15,9 @@ struct Trajectory {
 
 /// Where the ray from raster position xy through lens position uv meets a surface of that slope, as seen from
 /// the lens's centre.
-KERNEL vec2 pinholeOf(vec2 xy, vec2 uv, float slope) { return xy - slope * uv; }
+KERNEL vec2 pinholeOf(vec2 xy, vec2 uv, float slope) {
+    return xy - slope * uv;
+}
 
 /// Of a sample.
 KERNEL Trajectory trajectoryOf(vec2 xy, vec2 uv, float slope) {

@@ -40,7 +40,9 @@ KERNEL bool hides(IN(Sweep) sweep, IN(Brick) brick) {
            isSolid(sweep.surface, sweep.fullWeight);
 }
 
-KERNEL bool foundNothing(IN(Sweep) sweep) { return sweep.surface.count == 0 && sweep.running; }
+KERNEL bool foundNothing(IN(Sweep) sweep) {
+    return sweep.surface.count == 0 && sweep.running;
+}
 
 /// All layers, where there are some.
 KERNEL vec3 radianceOf(IN(Sweep) sweep) {

@@ -5,11 +5,11 @@
 // candidates; and sortCandidates(int count), which puts them front to back, and in the order of samples where
 // slopes are equal. In C++ it is included in a struct that has these, after lib/candidate.glsl,
 // lib/gaussian.glsl and lib/output.glsl.
+#include "shared/window.h"
 #include "lib/candidate.glsl"
 #include "lib/gaussian.glsl"
 #include "lib/output.glsl"
 #include "lib/trajectory.glsl"
-#include "shared/window.h"
 
 /// What is known of an apparent surface.
 struct WindowSurface {

@@ -3,20 +3,32 @@
 #define SLANT_RESOURCES_BINS_GLSL
 #include "resources/brick.glsl"
 
-layout(set = 0, binding = 0) uniform textureBuffer positions;   // p.x, p.y, slope, visibility weight
-layout(set = 0, binding = 1) uniform textureBuffer values;   // r, g, b, R over its own radius
+layout(set = 0, binding = 0) uniform textureBuffer positions; // p.x, p.y, slope, visibility weight
+layout(set = 0, binding = 1) uniform textureBuffer values;    // r, g, b, R over its own radius
 layout(set = 0, binding = 2) uniform utextureBuffer cellStart;
 layout(set = 0, binding = 3) uniform utextureBuffer listStart;
 layout(set = 0, binding = 4) uniform utextureBuffer listCellBases; // of each listed brick
 // The bricks themselves: one fetch where most are passed over.
 layout(set = 0, binding = 5) uniform utextureBuffer listBricks;
-layout(push_constant) uniform Push { OutputPush push; };
+layout(push_constant) uniform Push {
+    OutputPush push;
+};
 
 const int kMaxSteps = kMaxLoopIterations;
 
-vec4 positionAt(uint record) { return texelFetch(positions, int(record)); }
-uint cellStartAt(uint cell) { return texelFetch(cellStart, int(cell)).x; }
-Brick listedBrick(uint entry) { return brickOf(texelFetch(listBricks, int(entry))); }
-uint listedCellBase(uint entry) { return texelFetch(listCellBases, int(entry)).x; }
-vec4 valueAt(uint record) { return texelFetch(values, int(record)); }
+vec4 positionAt(uint record) {
+    return texelFetch(positions, int(record));
+}
+uint cellStartAt(uint cell) {
+    return texelFetch(cellStart, int(cell)).x;
+}
+Brick listedBrick(uint entry) {
+    return brickOf(texelFetch(listBricks, int(entry)));
+}
+uint listedCellBase(uint entry) {
+    return texelFetch(listCellBases, int(entry)).x;
+}
+vec4 valueAt(uint record) {
+    return texelFetch(values, int(record));
+}
 #endif

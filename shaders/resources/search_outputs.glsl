@@ -1,8 +1,9 @@
-// The pass that searches the bins for outputs: one workgroup is one output of each pixel of one tile. What its kernel
-// does not take is appended to a list for visibility.comp.
+// The pass that searches the bins for outputs: one workgroup is one output of each pixel of one tile. What
+// its kernel does not take is appended to a list for visibility.comp.
 //
-// Needs, declared before the include: what lib/search.glsl needs of a sweep; newSweep(float radiusPx, float surfaceGap);
-// isTaken(Sweep), whether what was found within R is what the output sees; and valueOf(Sweep), that.
+// Needs, declared before the include: what lib/search.glsl needs of a sweep; newSweep(float radiusPx, float
+// surfaceGap); isTaken(Sweep), whether what was found within R is what the output sees; and valueOf(Sweep),
+// that.
 #include "resources/bins.glsl"
 #include "resources/compound_lens.glsl"
 
@@ -17,8 +18,12 @@ layout(set = 0, binding = 12) uniform textureBuffer apertureTable;
 layout(set = 0, binding = 13) uniform textureBuffer lensMap;
 layout(set = 0, binding = 14) uniform utextureBuffer missed; // two a list: a bit for each pixel that is left
 
-float apertureAt(int i) { return texelFetch(apertureTable, i).x; }
-vec4 lensMapAt(int texel) { return texelFetch(lensMap, texel); }
+float apertureAt(int i) {
+    return texelFetch(apertureTable, i).x;
+}
+vec4 lensMapAt(int texel) {
+    return texelFetch(lensMap, texel);
+}
 #include "lib/aperture.glsl"
 #include "lib/lens_map.glsl"
 #include "lib/output_pattern.glsl"
@@ -49,8 +54,8 @@ void main() {
     const uint firstOfGroup = group << groupBits;
     const uint rank = (rest << pairBits) + pair;
     const uint k = firstOfGroup + (takenBits < groupBits ? memberAt(firstOfGroup, rank) : rank);
-    const ivec2 position = kTileSize * ivec2(tile) + 2 * ivec2(block & 3u, block >> 2) +
-                           ivec2(quad & 1u, quad >> 1);
+    const ivec2 position =
+        kTileSize * ivec2(tile) + 2 * ivec2(block & 3u, block >> 2) + ivec2(quad & 1u, quad >> 1);
     if (position.x >= outputs.regionSize.x || position.y >= outputs.regionSize.y) return;
     const uint inTile = uint(position.y % kTileSize * kTileSize + position.x % kTileSize);
     if ((texelFetch(missed, int(2u * list + (inTile >> 5))).x >> (inTile & 31u) & 1u) == 0u) return;

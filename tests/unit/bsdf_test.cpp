@@ -83,7 +83,7 @@ std::vector<Case> cases() {
     };
 }
 
-TEST(Bsdf, DiffuseReflectsItsReflectance) {
+TEST(Bsdf, diffuseReflectsItsReflectance) {
     Bsdf b = Bsdf::diffuse(kNormal, direction(50, 20), {1, 0.5f, 0.25f});
     EXPECT_NEAR(overHemisphere([&](glm::vec3 wi) { return b.evaluate(wi).x; }), 1, 1e-5);
     EXPECT_NEAR(overHemisphere([&](glm::vec3 wi) { return b.evaluate(wi).y; }), 0.5, 1e-5);
@@ -91,7 +91,7 @@ TEST(Bsdf, DiffuseReflectsItsReflectance) {
     EXPECT_EQ(b.evaluate(-kNormal), glm::vec3(0));
 }
 
-TEST(Bsdf, BothSidesScatterAlike) {
+TEST(Bsdf, bothSidesScatterAlike) {
     for (const Case& c : cases()) {
         glm::vec3 local(0.4f, -0.3f, 0.5f), in(-0.2f, 0.6f, 0.7f);
         local = glm::normalize(local);
@@ -104,7 +104,7 @@ TEST(Bsdf, BothSidesScatterAlike) {
     }
 }
 
-TEST(Bsdf, IsReciprocal) {
+TEST(Bsdf, isReciprocal) {
     Random random;
     for (const Case& c : cases())
         for (int i = 0; i < 100; ++i) {
@@ -117,7 +117,7 @@ TEST(Bsdf, IsReciprocal) {
         }
 }
 
-TEST(Bsdf, DensitiesIntegrateToOneAndSamplesFollowThem) {
+TEST(Bsdf, densitiesIntegrateToOneAndSamplesFollowThem) {
     for (const Case& c : cases())
         for (float degrees : {5.f, 45.f, 75.f}) {
             SCOPED_TRACE(std::string(c.name) + " at " + std::to_string(degrees));
@@ -155,7 +155,7 @@ TEST(Bsdf, DensitiesIntegrateToOneAndSamplesFollowThem) {
         }
 }
 
-TEST(Bsdf, LosesEnergyOnly) {
+TEST(Bsdf, losesEnergyOnly) {
     for (const Case& c : cases())
         for (float degrees : {0.f, 30.f, 60.f, 80.f, 89.f}) {
             Bsdf b = c.make(direction(degrees, 200));
@@ -172,7 +172,7 @@ TEST(Bsdf, LosesEnergyOnly) {
         }
 }
 
-TEST(Bsdf, MirrorReflectsByFresnel) {
+TEST(Bsdf, mirrorReflectsByFresnel) {
     glm::vec3 wo = direction(60, 30);
     Bsdf b = Bsdf::conductor(kNormal, kTangent, wo, {{1e-4f, 5e-4f}}, glm::vec3(1.5f), glm::vec3(0));
     BsdfSample s;
@@ -235,7 +235,7 @@ public:
     }
 };
 
-TEST(CoatedDiffuse, IsWhatARandomWalkGives) {
+TEST(CoatedDiffuse, isWhatARandomWalkGives) {
     struct Setting {
         float alpha, thickness;
         double reflectance, tolerance;
@@ -268,7 +268,7 @@ TEST(CoatedDiffuse, IsWhatARandomWalkGives) {
         }
 }
 
-TEST(CoatedDiffuse, TheWalkIsCutWherePbrtCutsIt) {
+TEST(CoatedDiffuse, theWalkIsCutWherePbrtCutsIt) {
     auto brightness = [](int maxDepth) {
         Coat coat(1.5f, 0, maxDepth, 0, 0);
         return coat.baseFactor(glm::vec3(1), 0).x;

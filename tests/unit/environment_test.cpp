@@ -11,7 +11,7 @@ using test::average;
 using test::Estimate;
 using test::Random;
 
-TEST(Octahedral, MapsBackAndKeepsAreas) {
+TEST(Octahedral, mapsBackAndKeepsAreas) {
     Random random;
     for (int i = 0; i < 10000; ++i) {
         glm::vec2 p = random.next2D();
@@ -41,7 +41,7 @@ Image sky(int size) {
     return image;
 }
 
-TEST(Environment, SamplesFollowTheirDensityAndGiveTheIrradiance) {
+TEST(Environment, samplesFollowTheirDensityAndGiveTheIrradiance) {
     Image image = sky(17);
     glm::dmat4 turn = glm::rotate(glm::dmat4(1), 0.6, glm::dvec3(1, 0.3, 0));
     Environment environment(image, 2, turn);
@@ -73,7 +73,7 @@ TEST(Environment, SamplesFollowTheirDensityAndGiveTheIrradiance) {
     EXPECT_NEAR(glm::distance(mean, sampledMean), 0, 0.01);
 }
 
-TEST(Environment, AFlatSkyIsSampledWithoutNoise) {
+TEST(Environment, aFlatSkyIsSampledWithoutNoise) {
     Image image = Image::rgb(8, 8);
     std::fill(image.pixels.begin(), image.pixels.end(), 0.75f);
     Environment environment(image, 2, glm::dmat4(1));
@@ -85,7 +85,7 @@ TEST(Environment, AFlatSkyIsSampledWithoutNoise) {
     }
 }
 
-TEST(Environment, ImagesThatCannotBeUsedAreRefused) {
+TEST(Environment, imagesThatCannotBeUsedAreRefused) {
     Scene scene;
     scene.images.push_back(Image::rgb(8, 4));
     Light light;

@@ -15,7 +15,7 @@ using testing::RandomRays;
 using testing::sphereShape;
 using testing::still;
 
-TEST(Geometry, ClosedMeshesLeakNowhere) {
+TEST(Geometry, closedMeshesLeakNowhere) {
     SilentMonitor monitor;
     for (auto kind : {Mesh::Kind::triangles, Mesh::Kind::bilinearPatches}) {
         Scene scene = emptyScene();
@@ -38,7 +38,7 @@ TEST(Geometry, ClosedMeshesLeakNowhere) {
     }
 }
 
-TEST(Geometry, InstancesEqualTransformedShapes) {
+TEST(Geometry, instancesEqualTransformedShapes) {
     glm::dmat4 place =
         glm::rotate(glm::translate(glm::dmat4(1), glm::dvec3(0.2, 0.1, -0.3)), 1.1, glm::dvec3(0, 0.6, 0.8));
     place = glm::scale(place, glm::dvec3(-0.5, 0.7, 0.6));
@@ -90,7 +90,7 @@ TEST(Geometry, InstancesEqualTransformedShapes) {
     EXPECT_LT(differ, 10);
 }
 
-TEST(Geometry, PacketsAgreeWithSingleRays) {
+TEST(Geometry, packetsAgreeWithSingleRays) {
     Scene scene = emptyScene();
     for (int i = 0; i < 20; ++i)
         scene.shapes.push_back(
@@ -120,7 +120,7 @@ TEST(Geometry, PacketsAgreeWithSingleRays) {
 
 /// Rays that leave a convex surface outwards, or a closed one inwards to the far side, must not meet where
 /// they start.
-TEST(Geometry, SpawnedRaysDoNotMeetTheirOwnSurface) {
+TEST(Geometry, spawnedRaysDoNotMeetTheirOwnSurface) {
     SilentMonitor monitor;
     for (double scale : {1e-3, 1.0, 1e3})
         for (int kind = 0; kind < 4; ++kind) {
@@ -163,7 +163,7 @@ TEST(Geometry, SpawnedRaysDoNotMeetTheirOwnSurface) {
         }
 }
 
-TEST(Geometry, BuildingCanBeInterrupted) {
+TEST(Geometry, buildingCanBeInterrupted) {
     struct Impatient final : Monitor {
         void beginStage(std::string_view, std::uint64_t, std::string_view) override {}
         void advance(std::uint64_t) override { throw Error(ErrorCode::interrupted, "stop"); }
@@ -180,7 +180,7 @@ TEST(Geometry, BuildingCanBeInterrupted) {
     }
 }
 
-TEST(Geometry, BoundsAndErrors) {
+TEST(Geometry, boundsAndErrors) {
     SilentMonitor monitor;
     Scene scene = emptyScene();
     EXPECT_TRUE(Geometry(scene, monitor).bounds().empty());

@@ -75,7 +75,7 @@ double quadrature(const Receiver& receiver, const std::function<glm::dvec3(doubl
     return sum / (kSteps * kSteps);
 }
 
-TEST(Lights, RectangleFromFarAndNear) {
+TEST(Lights, rectangleFromFarAndNear) {
     for (float height : {5.f, 1.f, 0.2f, 0.01f})
         for (bool patches : {false, true}) {
             Scene scene;
@@ -95,7 +95,7 @@ TEST(Lights, RectangleFromFarAndNear) {
         }
 }
 
-TEST(Lights, OrientationDecidesWhichSideShines) {
+TEST(Lights, orientationDecidesWhichSideShines) {
     auto mean = [](bool reverse, bool mirror, bool twoSided, std::vector<glm::vec3> normals) {
         Scene scene;
         Mesh mesh = rectangle(-1, 1, -1, 1, 1);
@@ -117,7 +117,7 @@ TEST(Lights, OrientationDecidesWhichSideShines) {
     EXPECT_GT(mean(true, false, false, up), 0);
 }
 
-TEST(Lights, TwistedPatch) {
+TEST(Lights, twistedPatch) {
     glm::vec3 p00(-1, -1, 1), p10(-1, 1, 2), p01(1, -1, 2.5f), p11(1.5f, 1, 0.7f);
     Scene scene;
     test::addEmittingMesh(scene, patch(p00, p10, p01, p11), emits(1));
@@ -130,7 +130,7 @@ TEST(Lights, TwistedPatch) {
     expectMean(irradiance(lights, kUp, 200000), truth);
 }
 
-TEST(Lights, SphereFromOutsideAndInside) {
+TEST(Lights, sphereFromOutsideAndInside) {
     Scene scene;
     Shape sphere;
     sphere.kind = ShapeKind::sphere;
@@ -147,7 +147,7 @@ TEST(Lights, SphereFromOutsideAndInside) {
     expectMean(irradiance(lights, {{0, 0, 2000}, {0, 0, -1}}), 3 * double(kPi) * 0.25 / (1 + 1998.0 * 1998));
 }
 
-TEST(Lights, DiscAndCutOrStretchedSphere) {
+TEST(Lights, discAndCutOrStretchedSphere) {
     Scene scene;
     Shape disc;
     disc.kind = ShapeKind::disk;
@@ -178,7 +178,7 @@ TEST(Lights, DiscAndCutOrStretchedSphere) {
     expectMean(irradiance(Lights(second), kUp, 200000), truth);
 }
 
-TEST(Lights, PointDistantAndSky) {
+TEST(Lights, pointDistantAndSky) {
     Scene scene;
     Light point;
     point.emission = glm::vec3(2, 5, 1);
@@ -213,7 +213,7 @@ TEST(Lights, PointDistantAndSky) {
 }
 
 /// Light of a scene with a bit of everything; every sample's density is found again by pdf().
-TEST(Lights, DensitiesAreThoseOfTheSamples) {
+TEST(Lights, densitiesAreThoseOfTheSamples) {
     Scene scene;
     test::addEmittingMesh(scene, rectangle(-1, 2, -1.5f, 0.5f, 1), emits(2));
     test::addEmittingMesh(scene, patch({-3, -1, 1}, {-3, 1, 2}, {-1, -1, 2.5f}, {-1.5f, 1, 0.7f}), emits(1));
@@ -267,7 +267,7 @@ TEST(Lights, DensitiesAreThoseOfTheSamples) {
     for (int light : {0, 2, 3, 4}) EXPECT_GT(met[std::size_t(light)], 100);
 }
 
-TEST(Lights, BentPatchDensityIsFoundFromThePosition) {
+TEST(Lights, bentPatchDensityIsFoundFromThePosition) {
     Emitter e;
     e.shape = Emitter::Shape::patch;
     e.origin = {-1, -1, 1};
@@ -287,7 +287,7 @@ TEST(Lights, BentPatchDensityIsFoundFromThePosition) {
     }
 }
 
-TEST(Lights, ManyEmittersAreChosenWithoutBias) {
+TEST(Lights, manyEmittersAreChosenWithoutBias) {
     Scene scene;
     Random random(4);
     double expected = 0;
@@ -305,7 +305,7 @@ TEST(Lights, ManyEmittersAreChosenWithoutBias) {
     EXPECT_LT(e.error / e.mean * std::sqrt(100000.0), 2); // far better than choosing evenly
 }
 
-TEST(Lights, ChancesOfATreeAddUpToOne) {
+TEST(Lights, chancesOfATreeAddUpToOne) {
     Random random(9);
     std::vector<LightBounds> bounds(100);
     for (LightBounds& b : bounds) {
@@ -345,7 +345,7 @@ TEST(Lights, ChancesOfATreeAddUpToOne) {
     }
 }
 
-TEST(Lights, PowerIsWhatAPieceEmits) {
+TEST(Lights, powerIsWhatAPieceEmits) {
     auto flux = [](Scene scene, double area) { // pi A L, by the radiance of a hit
         scene.areaLights[0].power = 12;
         scene.areaLights[0].radiance = glm::vec3(1, 0.5f, 0.25f);

@@ -181,7 +181,7 @@ Estimate picture(int count, const Trace& trace) {
     });
 }
 
-TEST(Path, EqualsAPathTracerThatNeverSamplesLights) {
+TEST(Path, equalsAPathTracerThatNeverSamplesLights) {
     for (MaterialKind kind : {MaterialKind::diffuse, MaterialKind::coatedDiffuse, MaterialKind::conductor})
         for (float roughness : {0.f, 0.2f})
             for (int maxDepth : {1, 3}) {
@@ -207,7 +207,7 @@ TEST(Path, EqualsAPathTracerThatNeverSamplesLights) {
             }
 }
 
-TEST(Path, LightsThatNeedTwoStrategiesAndMovingOnes) {
+TEST(Path, lightsThatNeedTwoStrategiesAndMovingOnes) {
     Scene scene = room(Material{}, 0);
     scene.materials[1].reflectance = 0;
     // A bent light: not sampled by solid angle. Its hits here come from two flat triangles nearly in place.
@@ -229,7 +229,7 @@ TEST(Path, LightsThatNeedTwoStrategiesAndMovingOnes) {
     compare(moving);
 }
 
-TEST(Path, DepthMeansWhatPbrtMeans) {
+TEST(Path, depthMeansWhatPbrtMeans) {
     Scene textures;
     Material mirror = withRoughness(textures, MaterialKind::conductor, 0);
     Scene scene = room(mirror, 0);
@@ -260,7 +260,7 @@ TEST(Path, DepthMeansWhatPbrtMeans) {
     EXPECT_GT(average(200, [&] { return double(tracePath(geometry, shading, side, 2, random).x); }).mean, 0);
 }
 
-TEST(Path, AuxiliaryChannelsDescribeTheFirstHit) {
+TEST(Path, auxiliaryChannelsDescribeTheFirstHit) {
     Scene scene = room(Material{}, 0);
     scene.materials[1].reflectance = 0;
     Shading shading(scene);
@@ -282,7 +282,7 @@ TEST(Path, AuxiliaryChannelsDescribeTheFirstHit) {
     EXPECT_EQ(guides.albedo, glm::vec3(0));
 }
 
-TEST(Path, OneShadowRayIsAllOfDirectDiffuseLight) {
+TEST(Path, oneShadowRayIsAllOfDirectDiffuseLight) {
     Scene scene = room(Material{}, 0.3f);
     scene.materials[1].reflectance = 0;
     Shading shading(scene);
@@ -299,7 +299,7 @@ TEST(Path, OneShadowRayIsAllOfDirectDiffuseLight) {
     EXPECT_NEAR(glm::length(shadow.ray.direction), 1, 1e-5f);
 }
 
-TEST(Path, ParametersOutsideTheSubsetAreRefused) {
+TEST(Path, parametersOutsideTheSubsetAreRefused) {
     auto make = [](auto change) {
         Scene scene;
         Material m = withRoughness(scene, MaterialKind::coatedDiffuse, 0);

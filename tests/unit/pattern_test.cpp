@@ -53,7 +53,7 @@ double largestEmptyCircle(const std::vector<glm::vec2>& points, double size, dou
     return largest;
 }
 
-TEST(Pattern, PixelAndLensAreStratifiedForPowersOfTwo) {
+TEST(Pattern, pixelAndLensAreStratifiedForPowersOfTwo) {
     for (int spp : {2, 4, 16, 64, 256})
         for (auto [x, y] : {std::pair(0, 0), {17, 300}, {-5, -129}}) {
             Pattern pattern(spp, 42);
@@ -74,7 +74,7 @@ TEST(Pattern, PixelAndLensAreStratifiedForPowersOfTwo) {
         }
 }
 
-TEST(Pattern, NeighbouringPixelsComplementEachOther) {
+TEST(Pattern, neighbouringPixelsComplementEachOther) {
     // Four pixels of an aligned block with spp samples each stratify the lens as 4 spp samples do.
     Pattern pattern(4, 7);
     for (int block = 0; block < 50; ++block) {
@@ -89,7 +89,7 @@ TEST(Pattern, NeighbouringPixelsComplementEachOther) {
     }
 }
 
-TEST(Pattern, LeavesNoHoles) {
+TEST(Pattern, leavesNoHoles) {
     // Radii of the largest empty circle, 2 / sqrt(spp) and less.
     const std::pair<int, double> bars[] = {{1, 2.0}, {2, 1.34}, {3, 1.15}, {4, 1.10}, {5, .89},
                                            {8, .80}, {12, .58}, {16, .50}, {32, .37}, {64, .27}};
@@ -104,7 +104,7 @@ TEST(Pattern, LeavesNoHoles) {
     }
 }
 
-TEST(Pattern, LeavesNoHolesAfterShearing) {
+TEST(Pattern, leavesNoHolesAfterShearing) {
     // As seen from one lens position the samples are as even as random ones at least: 1.15 x 2 / sqrt(spp).
     for (int spp : {1, 3, 8})
         for (float slope : {1.f, 7.f, 30.f}) {
@@ -118,7 +118,7 @@ TEST(Pattern, LeavesNoHolesAfterShearing) {
         }
 }
 
-TEST(Pattern, ConvergesFasterThanRandomOnABlurredEdge) {
+TEST(Pattern, convergesFasterThanRandomOnABlurredEdge) {
     // Coverage of pixels by a defocused edge; random samples would err by 0.48 / sqrt(spp).
     for (auto [spp, bar] : {std::pair(4, 0.31), {7, 0.30}, {16, 0.25}, {64, 0.2}}) {
         Pattern pattern(spp, 1);
@@ -142,7 +142,7 @@ TEST(Pattern, ConvergesFasterThanRandomOnABlurredEdge) {
     }
 }
 
-TEST(Pattern, EachShadingDimensionIsUniformAndItsOwn) {
+TEST(Pattern, eachShadingDimensionIsUniformAndItsOwn) {
     Pattern pattern(16, 5);
     double sums[6] = {}, products[6] = {};
     const int count = 64 * 64 * 16;
@@ -166,7 +166,7 @@ TEST(Pattern, EachShadingDimensionIsUniformAndItsOwn) {
     }
 }
 
-TEST(Pattern, SeedsGiveOtherPatternsAndTheSameSeedTheSame) {
+TEST(Pattern, seedsGiveOtherPatternsAndTheSameSeedTheSame) {
     Pattern a(4, 1), b(4, 2), c(4, 1ull << 40), again(4, 1);
     int equal = 0;
     for (int x = 0; x < 100; ++x) {
@@ -178,7 +178,7 @@ TEST(Pattern, SeedsGiveOtherPatternsAndTheSameSeedTheSame) {
     EXPECT_LE(equal, 1);
 }
 
-TEST(Pattern, RefusesCountsOutOfRange) {
+TEST(Pattern, refusesCountsOutOfRange) {
     for (int spp : {0, -1, Pattern::kMaxSamplesPerPixel + 1}) EXPECT_THROW(Pattern(spp, 0), Error) << spp;
     EXPECT_NO_THROW(Pattern(Pattern::kMaxSamplesPerPixel, 0));
 }

@@ -58,7 +58,7 @@ std::vector<LightFieldSample> trace(const Tracer& tracer, Rect pixels, int first
     return traceSet(tracer, pixels, first, count, spp).samples;
 }
 
-TEST(Tracer, SamplesLieInTheirPixelsAndOnTheirTrajectories) {
+TEST(Tracer, samplesLieInTheirPixelsAndOnTheirTrajectories) {
     Scene scene = ballScene(37, 23);
     SilentMonitor monitor;
     Tracer tracer(scene, monitor);
@@ -84,7 +84,7 @@ TEST(Tracer, SamplesLieInTheirPixelsAndOnTheirTrajectories) {
     EXPECT_GT(near, 100);
 }
 
-TEST(Tracer, MissesLieAtInfinity) {
+TEST(Tracer, missesLieAtInfinity) {
     Scene scene = emptyScene(8, 8);
     scene.camera.lensRadius = 0.1f;
     scene.camera.focalDistance = 2;
@@ -97,7 +97,7 @@ TEST(Tracer, MissesLieAtInfinity) {
     }
 }
 
-TEST(Tracer, ASampleDependsOnItsPixelAndIndexAlone) {
+TEST(Tracer, aSampleDependsOnItsPixelAndIndexAlone) {
     Scene scene = ballScene(37, 23);
     SilentMonitor monitor;
     Tracer tracer(scene, monitor);
@@ -114,7 +114,7 @@ TEST(Tracer, ASampleDependsOnItsPixelAndIndexAlone) {
     EXPECT_TRUE(sameBits(all, trace(tracer, whole, 0, 6, 6)));
 }
 
-TEST(Tracer, AConvexBodyUnderAConstantSkyShowsItsReflectance) {
+TEST(Tracer, aConvexBodyUnderAConstantSkyShowsItsReflectance) {
     Scene scene = emptyScene(16, 16);
     scene.shapes.push_back(sphereShape(50, glm::translate(glm::dmat4(1), glm::dvec3(0, 0, 60))));
     scene.lights[0].emission = {1, 2, 4};
@@ -141,7 +141,7 @@ TEST(Tracer, AConvexBodyUnderAConstantSkyShowsItsReflectance) {
     EXPECT_EQ(mean(), glm::dvec3(0));
 }
 
-TEST(Tracer, RecordsAlbedoAndNormalTowardsTheCamera) {
+TEST(Tracer, recordsAlbedoAndNormalTowardsTheCamera) {
     Scene scene = ballScene(24, 16);
     SilentMonitor monitor;
     Tracer tracer(scene, monitor);
@@ -155,7 +155,7 @@ TEST(Tracer, RecordsAlbedoAndNormalTowardsTheCamera) {
     }
 }
 
-TEST(Tracer, RefusesBuffersThatDoNotFit) {
+TEST(Tracer, refusesBuffersThatDoNotFit) {
     Scene scene = ballScene(8, 8);
     SilentMonitor monitor;
     Tracer tracer(scene, monitor);
@@ -174,7 +174,7 @@ TEST(Tracer, RefusesBuffersThatDoNotFit) {
     EXPECT_NO_THROW(tracer.trace({4, 4, 4, 4}, 0, 4, 4, 0, {}, monitor));
 }
 
-TEST(SamplePass, OverscanReachesAsFarAsTheBlur) {
+TEST(SamplePass, overscanReachesAsFarAsTheBlur) {
     Scene scene = ballScene(64, 48);
     scene.camera.lensRadius = 1;
     RecordingMonitor monitor;
@@ -208,7 +208,7 @@ TEST(SamplePass, OverscanReachesAsFarAsTheBlur) {
     }()));
 }
 
-TEST(SamplePass, OverscanIsLimitedWithAWarning) {
+TEST(SamplePass, overscanIsLimitedWithAWarning) {
     Scene scene = ballScene(32, 24);
     scene.camera.lensRadius = 20;
     RecordingMonitor monitor;
@@ -219,7 +219,7 @@ TEST(SamplePass, OverscanIsLimitedWithAWarning) {
     EXPECT_NE(monitor.warnings[0].find("16"), std::string::npos);
 }
 
-TEST(SamplePass, BoundsFollowTheFurthestTrajectoryOnEachSide) {
+TEST(SamplePass, boundsFollowTheFurthestTrajectoryOnEachSide) {
     LightFieldSample s{};
     s.x = 2.5f, s.y = 5.5f, s.u = 0.5f, s.slope = -3;
     int wanted = 0;
@@ -232,7 +232,7 @@ TEST(SamplePass, BoundsFollowTheFurthestTrajectoryOnEachSide) {
               (Rect{2, 3, 10, 8}.expand(2)));
 }
 
-TEST(SamplePass, OverscanHoldsWhatTheFilterSees) {
+TEST(SamplePass, overscanHoldsWhatTheFilterSees) {
     Scene scene = ballScene(32, 24);
     scene.camera.lensRadius = 0;
     SilentMonitor monitor;
@@ -245,7 +245,7 @@ TEST(SamplePass, OverscanHoldsWhatTheFilterSees) {
     }
 }
 
-TEST(SamplePass, RefusesWhatDoesNotFitTheBudget) {
+TEST(SamplePass, refusesWhatDoesNotFitTheBudget) {
     Scene scene = ballScene(64, 48);
     RecordingMonitor monitor;
     Tracer tracer(scene, monitor);

@@ -15,7 +15,7 @@ using testing::RandomRays;
 using testing::sphereShape;
 using testing::still;
 
-TEST(Surfaces, SphereAgreesWithTheQuadraticFormula) {
+TEST(Surfaces, sphereAgreesWithTheQuadraticFormula) {
     Scene scene = emptyScene();
     glm::dmat4 matrix = glm::translate(glm::dmat4(1), glm::dvec3(0.3, -0.2, 0.1));
     scene.shapes.push_back(sphereShape(0.7f, matrix));
@@ -43,7 +43,7 @@ TEST(Surfaces, SphereAgreesWithTheQuadraticFormula) {
     }
 }
 
-TEST(Surfaces, PartialQuadricsKeepWhatPbrtKeeps) {
+TEST(Surfaces, partialQuadricsKeepWhatPbrtKeeps) {
     Scene scene = emptyScene();
     Shape partial = sphereShape(1, glm::dmat4(1));
     partial.zMin = -0.5f;
@@ -89,7 +89,7 @@ TEST(Surfaces, PartialQuadricsKeepWhatPbrtKeeps) {
     EXPECT_NEAR(glm::length(hit.dpdu - glm::vec3(-std::numbers::pi_v<float>, 0, 0)), 0, 1e-5);
 }
 
-TEST(Surfaces, MirroringAndReverseOrientationFlipNormals) {
+TEST(Surfaces, mirroringAndReverseOrientationFlipNormals) {
     SilentMonitor monitor;
     for (bool mirror : {false, true})
         for (bool reverse : {false, true}) {
@@ -114,7 +114,7 @@ TEST(Surfaces, MirroringAndReverseOrientationFlipNormals) {
         }
 }
 
-TEST(Surfaces, ShadingNormalsDecideTheSide) {
+TEST(Surfaces, shadingNormalsDecideTheSide) {
     Scene scene = emptyScene();
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -136,7 +136,7 @@ TEST(Surfaces, ShadingNormalsDecideTheSide) {
     EXPECT_GT(hit.dpdu.x, 0);
 }
 
-TEST(Surfaces, BilinearPatchLiesOnItsSurface) {
+TEST(Surfaces, bilinearPatchLiesOnItsSurface) {
     Scene scene = emptyScene();
     Mesh mesh;
     mesh.kind = Mesh::Kind::bilinearPatches;
@@ -179,7 +179,7 @@ TEST(Surfaces, BilinearPatchLiesOnItsSurface) {
     EXPECT_GT(met, 1000);
 }
 
-TEST(Surfaces, FlatPatchesKeepTheirParametrisation) {
+TEST(Surfaces, flatPatchesKeepTheirParametrisation) {
     Scene scene = emptyScene();
     Mesh mesh; // two trapezoids side by side
     mesh.kind = Mesh::Kind::bilinearPatches;

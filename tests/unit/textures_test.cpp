@@ -45,7 +45,7 @@ glm::vec3 at(const Scene& scene, glm::vec2 uv, TextureUse use = TextureUse::unbo
     return Textures(scene).evaluate(int(scene.textures.size()) - 1, {glm::vec3(0), uv}, use);
 }
 
-TEST(Textures, ImagesAreUpsideDownInT) {
+TEST(Textures, imagesAreUpsideDownInT) {
     Scene scene = withImage();
     add(scene, imagemap(WrapMode::clamp, TexelFilter::point));
     EXPECT_EQ(at(scene, {0.1f, 0.9f}), glm::vec3(0, 0, 0.5f)); // top left is row 0
@@ -55,7 +55,7 @@ TEST(Textures, ImagesAreUpsideDownInT) {
     EXPECT_EQ(at(scene, {NAN, 0.1f}), glm::vec3(0, 1, 0.5f)); // never outside memory
 }
 
-TEST(Textures, WrapModes) {
+TEST(Textures, wrapModes) {
     Scene scene = withImage();
     add(scene, imagemap(WrapMode::repeat, TexelFilter::point));
     EXPECT_EQ(at(scene, {1.5f, 0.1f}), glm::vec3(1, 1, 0.5f));
@@ -65,7 +65,7 @@ TEST(Textures, WrapModes) {
     EXPECT_EQ(at(scene, {0.5f, 0.1f}), glm::vec3(1, 1, 0.5f));
 }
 
-TEST(Textures, BilinearBetweenTexelCentres) {
+TEST(Textures, bilinearBetweenTexelCentres) {
     Scene scene = withImage();
     add(scene, imagemap(WrapMode::repeat, TexelFilter::bilinear));
     EXPECT_NEAR(at(scene, {0.5f, 0.25f}).x, 1, 1e-6f);       // a centre
@@ -78,7 +78,7 @@ TEST(Textures, BilinearBetweenTexelCentres) {
     EXPECT_NEAR(at(scene, {1, 0.25f}).x, 2, 1e-6f);
 }
 
-TEST(Textures, ScaleInvertAndUse) {
+TEST(Textures, scaleInvertAndUse) {
     Scene scene = withImage();
     Texture t = imagemap(WrapMode::clamp, TexelFilter::point);
     t.scale = 3;
@@ -91,7 +91,7 @@ TEST(Textures, ScaleInvertAndUse) {
     EXPECT_EQ(at(scene, {0.9f, 0.9f}), glm::vec3(0, 1, 0.5f)); // 1 - 2 is clamped
 }
 
-TEST(Textures, CheckerboardParityAndMappings) {
+TEST(Textures, checkerboardParityAndMappings) {
     Scene scene;
     add(scene, constant(10));
     add(scene, constant(20));
@@ -118,7 +118,7 @@ TEST(Textures, CheckerboardParityAndMappings) {
                       expected(2 * (y + 0.1f) + 0.5f, z + 0.4f));
 }
 
-TEST(Textures, ScaleAndMix) {
+TEST(Textures, scaleAndMix) {
     Scene scene;
     int two = add(scene, constant(2)), quarter = add(scene, constant(0.25f));
     Texture scale;
@@ -134,7 +134,7 @@ TEST(Textures, ScaleAndMix) {
     EXPECT_TRUE(Textures(scene).isConstant(3));
 }
 
-TEST(Textures, BrokenGraphsAreRefused) {
+TEST(Textures, brokenGraphsAreRefused) {
     Scene scene;
     Texture scale;
     scale.kind = TextureKind::scale;

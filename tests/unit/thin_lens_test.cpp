@@ -29,7 +29,7 @@ glm::dvec2 pinholeRaster(const Scene& scene, glm::dvec3 p) {
             (double(c.screenMax.y) - screen.y) / size.y * scene.film.yResolution};
 }
 
-TEST(ThinLens, PointsLieOnSlantedLines) {
+TEST(ThinLens, pointsLieOnSlantedLines) {
     Scene scene = defocusedScene();
     ThinLens camera(scene.camera, scene.film);
     SlopeModel slope = camera.slopeModel();
@@ -49,7 +49,7 @@ TEST(ThinLens, PointsLieOnSlantedLines) {
     }
 }
 
-TEST(ThinLens, RaysGoWhereTheApertureIsOpen) {
+TEST(ThinLens, raysGoWhereTheApertureIsOpen) {
     Scene scene = defocusedScene();
     for (const char* name : {"star", "polygon 6", "gaussian"}) {
         scene.camera.aperture = *parseAperture(name, {});
@@ -64,7 +64,7 @@ TEST(ThinLens, RaysGoWhereTheApertureIsOpen) {
     }
 }
 
-TEST(ThinLens, SlopeIsZeroInFocusAndNegativeBefore) {
+TEST(ThinLens, slopeIsZeroInFocusAndNegativeBefore) {
     Scene scene = defocusedScene();
     SlopeModel slope = ThinLens(scene.camera, scene.film).slopeModel();
     EXPECT_NEAR(slope(4.5f), 0, 1e-5);
@@ -75,7 +75,7 @@ TEST(ThinLens, SlopeIsZeroInFocusAndNegativeBefore) {
     EXPECT_NEAR(slope.c2, s * 0.13 / 4.5, 1e-4);
 }
 
-TEST(ThinLens, RasterRunsRightAndDown) {
+TEST(ThinLens, rasterRunsRightAndDown) {
     Scene scene = emptyScene(200, 100);
     ThinLens camera(scene.camera, scene.film);
     double t = std::tan(glm::radians(30.0));
@@ -87,7 +87,7 @@ TEST(ThinLens, RasterRunsRightAndDown) {
     EXPECT_NEAR(glm::length(centre - glm::vec3(0, 0, 1)), 0, 1e-6);
 }
 
-TEST(ThinLens, LensRunsRightAndDown) {
+TEST(ThinLens, lensRunsRightAndDown) {
     Scene scene = emptyScene();
     scene.camera.lensRadius = 2;
     scene.camera.focalDistance = 5;
@@ -95,7 +95,7 @@ TEST(ThinLens, LensRunsRightAndDown) {
     EXPECT_NEAR(glm::length(ray.origin - glm::vec3(0.5f, -1.5f, 0)), 0, 1e-6);
 }
 
-TEST(ThinLens, RefusesWhatItCannotDo) {
+TEST(ThinLens, refusesWhatItCannotDo) {
     auto refuses = [](auto change) {
         Scene scene = emptyScene();
         change(scene);
@@ -119,7 +119,7 @@ TEST(ThinLens, RefusesWhatItCannotDo) {
     EXPECT_FALSE(refuses([](Scene&) {}));
 }
 
-TEST(ConcentricDisc, StaysInsideAndMatchesSineAndCosine) {
+TEST(ConcentricDisc, staysInsideAndMatchesSineAndCosine) {
     for (int i = 0; i <= 64; ++i)
         for (int j = 0; j <= 64; ++j) {
             glm::vec2 p = concentricDisc(float(i) / 64, float(j) / 64);
