@@ -25,8 +25,9 @@ vec4 lensMapAt(int texel) {
 #include "lib/aperture.glsl"
 #include "lib/lens_map.glsl"
 #include "lib/output_pattern.glsl"
-#include "lib/search.glsl"
 #include "lib/visibility.glsl"
+
+#include "lib/search.glsl"
 
 void main() {
     const uint invocation =
