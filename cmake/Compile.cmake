@@ -27,7 +27,7 @@ function(slant_compile_options target)
         target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
         target_link_options(${target} PUBLIC -fsanitize=${SLANT_SANITIZE})
         if(SLANT_SANITIZE STREQUAL "thread")
-            # oneTBB's templates would come out half instrumented; the file tells of their order itself.
+            # oneTBB's templates would be half instrumented; this file tells the sanitizer about their order itself.
             set_source_files_properties(host/base/parallel.cpp PROPERTIES
                 COMPILE_OPTIONS -fno-sanitize=thread COMPILE_DEFINITIONS SLANT_THREAD_SANITIZER)
         endif()

@@ -1,5 +1,5 @@
-# Installs HEADERS (below SOURCE/host or SOURCE/shaders) and all that they include to DESTINATION, with
-# #include "room/name.h" become #include <slant/room/name.h>, so that no name of ours stands in a user's way.
+# Installs HEADERS (below SOURCE/host or SOURCE/shaders) and all that they include to DESTINATION, with #include
+# "room/name.h" become #include <slant/room/name.h>, so that none of our names collides with a user's.
 
 cmake_minimum_required(VERSION 3.25)
 set(waiting ${HEADERS})

@@ -5,7 +5,7 @@ find_program(SPIRV_DIS spirv-dis REQUIRED)
 find_program(SPIRV_AS spirv-as REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)
 
-# Compiles every shaders/*.comp, and makes "shaders_embedded.h" with one array kNAME a shader for `target`.
+# Compiles every shaders/*.comp, and makes "shaders_embedded.h" with one array kNAME per shader for `target`.
 function(slant_embed_shaders target)
     file(GLOB shaders CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/shaders/*.comp")
     set(out "${PROJECT_BINARY_DIR}/shaders")

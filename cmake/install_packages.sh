@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing of a list of Debian 12 packages. Needs root or sudo only when something is missing.
-#     bash cmake/install_packages.sh [LIST]        cmake/packages.txt unless told
+# Installs the missing packages of a list for Debian 12. Needs root or sudo only when something is missing.
+#     bash cmake/install_packages.sh [LIST]        cmake/packages.txt by default
 set -euo pipefail
 list="${1:-$(dirname "$0")/packages.txt}"
 

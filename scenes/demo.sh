@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds the program, and renders scenes/row.pbrt from 8 samples a pixel into out/, on the
-# best Vulkan device there is (Mesa's lavapipe included). Beside it: the same 8 samples plainly filtered, and a
-# reference, so that all three can be looked at side by side. Works as root or with sudo, without a display.
+# Installs what is missing, builds the program, and renders scenes/row.pbrt from 8 samples per pixel into out/, on the
+# best Vulkan device (Mesa's lavapipe included). Beside it: the same 8 samples, only filtered, and a reference, so that
+# you can compare all three side by side. Works as root or with sudo, without a display.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -21,13 +21,13 @@ mkdir -p out
 say "Vulkan devices"
 "$slant" devices
 
-say "8 samples a pixel, reconstructed"
+say "8 samples per pixel, reconstructed"
 "$slant" render "$scene" --spp 8 --exposure 0.3 -o out/row.exr --png out/row.png --stats out/row.json
 
-say "The same 8 samples a pixel, only filtered"
+say "The same 8 samples per pixel, only filtered"
 "$slant" render "$scene" --spp 8 --exposure 0.3 --method box -o out/row-input.exr --png out/row-input.png
 
-say "Brute force with 256 samples a pixel, as a reference"
+say "Brute force with 256 samples per pixel, as a reference"
 "$slant" reference "$scene" --spp 256 --exposure 0.3 -o out/row-reference.exr --png out/row-reference.png
 
 say "Distance to that reference: the filtered input, then the reconstruction"

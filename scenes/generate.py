@@ -2,7 +2,7 @@
 """Writes the meshes, images and included parts of the scenes beside this file (or below the folder given).
 
 The .pbrt files at the top are written by hand; what they include comes from here. The same script gives the same
-bytes on every run, and tests/unit/scenes_test.cpp holds the committed files to that.
+bytes on every run, and tests/render/scenes_test.cpp holds the committed files to that.
 """
 
 import sys

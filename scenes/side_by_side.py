@@ -14,7 +14,7 @@ def chunk(kind, data):
 
 
 def unfilter(kind, line, above):
-    """Undoes one row's filter (PNG specification, section 9), three bytes a pixel."""
+    """Undoes one row's filter (PNG specification, section 9), three bytes per pixel."""
     for i in range(len(line)):
         left, up, corner = (line[i - 3] if i >= 3 else 0), above[i], (above[i - 3] if i >= 3 else 0)
         if kind == 1:

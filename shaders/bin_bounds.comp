@@ -1,7 +1,7 @@
 #version 460
-// Bounds of each brick's samples, and the key at which it begins. All are least values of unsigned integers
-// (greatest ones by their complement, floats by their ordered bits), so that atomics give the same in every
-// order.
+// Bounds of each brick's samples, and the key at which it begins. All are minima of unsigned integers
+// (maxima through their complement, floats through their ordered bits), so that atomics give the same result
+// in any order.
 #extension GL_GOOGLE_include_directive : require
 #include "lib/ordered_float.glsl"
 #include "resources/invocation.glsl"
@@ -11,7 +11,7 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform utextureBuffer keys;
 layout(set = 0, binding = 1) uniform textureBuffer positions;
 layout(set = 0, binding = 2) uniform utextureBuffer brickOfRecord; // prefix sum of brickBegins
-layout(set = 0, binding = 3, r32ui) uniform uimageBuffer bounds;   // kBoundWords a brick
+layout(set = 0, binding = 3, r32ui) uniform uimageBuffer bounds;   // kBoundWords per brick
 layout(set = 0, binding = 4, r32ui) uniform writeonly uimageBuffer brickKeys;
 layout(set = 0, binding = 5) uniform textureBuffer values;
 layout(push_constant) uniform Push {
@@ -19,7 +19,7 @@ layout(push_constant) uniform Push {
 };
 
 void lower(int word, uint value) {
-    // Reading first spares most of the atomics: what is read can only be behind, never past.
+    // Reading first saves most of the atomics: the value read may be outdated, but never too low.
     if (value < imageLoad(bounds, word).x) imageAtomicMin(bounds, word, value);
 }
 

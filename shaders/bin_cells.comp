@@ -1,6 +1,6 @@
 #version 460
 // The first record of each cell of each brick: where its key would stand among the sorted keys. One
-// invocation is a row of cells.
+// invocation per row of cells.
 #extension GL_GOOGLE_include_directive : require
 #include "resources/invocation.glsl"
 #include "shared/reconstruct.h"

@@ -6,7 +6,7 @@
 #include "resources/invocation.glsl"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0) uniform textureBuffer samples; // two texels a sample: LightFieldSample
+layout(set = 0, binding = 0) uniform textureBuffer samples; // two texels per sample: LightFieldSample
 layout(set = 0, binding = 1, r32ui) uniform uimageBuffer stopped;
 layout(push_constant) uniform Push {
     BinPush push;

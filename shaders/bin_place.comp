@@ -5,7 +5,7 @@
 #include "resources/invocation.glsl"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0) uniform textureBuffer samples; // two texels a sample: LightFieldSample
+layout(set = 0, binding = 0) uniform textureBuffer samples; // two texels per sample: LightFieldSample
 layout(set = 0, binding = 1, rgba32f) uniform writeonly imageBuffer positions;
 layout(set = 0, binding = 2, r32ui) uniform writeonly uimageBuffer keys;
 layout(set = 0, binding = 3, r32ui) uniform writeonly uimageBuffer indices;

@@ -1,5 +1,5 @@
 #version 460
-// The records and bricks of another focus: all slopes change by the same.
+// The records and bricks of another focus: all slopes change by the same amount.
 #extension GL_GOOGLE_include_directive : require
 #include "resources/invocation.glsl"
 #include "shared/reconstruct.h"

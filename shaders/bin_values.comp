@@ -1,5 +1,5 @@
 #version 460
-// The values of the records: those of the samples that they are, beside their radius ratios.
+// The values of the records: those of their samples, with their radius ratios.
 #extension GL_GOOGLE_include_directive : require
 #include "resources/invocation.glsl"
 #include "shared/reconstruct.h"

@@ -1,5 +1,5 @@
 #version 460
-// Adds to a pixel of the film what film_spread found in the pixels around it. As FilmBuffer::partOf of
+// Adds to a pixel of the film what film_spread found in the pixels around it. Same as FilmBuffer::partOf in
 // host/reconstruct/film_buffer.cpp.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/reconstruct.h"

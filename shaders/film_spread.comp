@@ -1,13 +1,13 @@
 #version 460
-// What the dense samples of a pixel bring to each pixel around it, through the pixel filter: one invocation a
-// pixel. So each sample is read once, and its weights are.
+// What the dense samples of a pixel contribute to each pixel around it, through the pixel filter: one
+// invocation per pixel. So each sample is read once, and its weights are computed once.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/reconstruct.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0) uniform textureBuffer dense;
 layout(set = 0, binding = 1) uniform textureBuffer weights;
-layout(set = 0, binding = 2, rgba32f) uniform writeonly imageBuffer spread; // kTaps a pixel, row by row
+layout(set = 0, binding = 2, rgba32f) uniform writeonly imageBuffer spread; // kTaps per pixel, row by row
 layout(push_constant) uniform Push {
     FilterPush push;
 };

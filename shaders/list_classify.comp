@@ -11,7 +11,7 @@ layout(set = 0, binding = 1) uniform utextureBuffer listBricks;
 layout(set = 0, binding = 2) uniform textureBuffer lensBoxes;
 layout(set = 0, binding = 3, r32ui) uniform writeonly uimageBuffer classes;
 layout(set = 0, binding = 4, rgba32f) uniform writeonly imageBuffer clusters; // from the list's start on
-layout(set = 0, binding = 5, r32ui) uniform writeonly uimageBuffer missed;    // two a list
+layout(set = 0, binding = 5, r32ui) uniform writeonly uimageBuffer missed;    // two per list
 layout(push_constant) uniform Push {
     MapLookupPush push;
 };

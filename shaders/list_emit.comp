@@ -1,6 +1,6 @@
 #version 460
 // (list, brick) for every tile that can see a brick through a lens group, in the order of groups and bricks:
-// sorted stably by list, each list is ascending. One invocation an entry, so that large footprints are
+// sorted stably by list, each list is ascending. One invocation per entry, so that large footprints are
 // spread.
 #extension GL_GOOGLE_include_directive : require
 #include "lib/grid.glsl"

@@ -1,6 +1,6 @@
 #version 460
 // The outputs of lists that the layer map serves: one invocation takes all those of a pixel. Where one of
-// them meets nothing, the pixel is left to reconstruct.comp, or the whole list.
+// them meets nothing, it leaves the pixel, or the whole list, to reconstruct.comp.
 #extension GL_GOOGLE_include_directive : require
 #include "lib/output.glsl"
 #include "shared/layer_map.h"
@@ -13,7 +13,7 @@ layout(set = 0, binding = 3) uniform textureBuffer lensPoints;
 layout(set = 0, binding = 4) uniform utextureBuffer pattern;
 layout(set = 0, binding = 5) uniform utextureBuffer classes;
 layout(set = 0, binding = 6, rgba32f) uniform writeonly imageBuffer dense;
-layout(set = 0, binding = 7, r32ui) uniform uimageBuffer missed; // two a list: a bit for each pixel
+layout(set = 0, binding = 7, r32ui) uniform uimageBuffer missed; // two per list: a bit for each pixel
 layout(push_constant) uniform Push {
     MapLookupPush push;
 };
@@ -49,7 +49,7 @@ void main() {
     const int firstOutput = (int(push.firstGroup) + int(tile.z)) * groupSize,
               firstPlane = int(tile.z) * groupSize;
     const ivec2 pixel = push.outputs.regionOrigin + position;
-    // Positions outside the region are looked at too: whether a list is served must not depend on bands.
+    // Positions outside the region are tested too: whether a list is served must not depend on bands.
     const bool inRegion = position.x < size.x && position.y < size.y;
     vec3 sum = vec3(0.0);
     for (int rank = 0; rank < groupSize; ++rank) {

@@ -1,6 +1,6 @@
 #version 460
-// Dense samples that reconstruct.comp left: apparent surfaces within twice the base radius, laid over one
-// another front to back. What finds nothing is appended to a list for the next wider radius.
+// Dense samples that reconstruct.comp left: apparent surfaces within twice the base radius, composited front
+// to back. Outputs that find nothing are appended to a list for the next wider radius.
 #extension GL_GOOGLE_include_directive : require
 #include "resources/bins.glsl"
 #include "resources/compound_lens.glsl"

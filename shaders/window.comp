@@ -1,6 +1,6 @@
 #version 460
-// Dense samples from a fixed window of pixels. One invocation an output; neighbours in x are neighbours in a
-// vector, and their windows have the same size.
+// Dense samples from a fixed window of pixels. One invocation per output; neighbours in x are neighbours in
+// a vector, and their windows have the same size.
 #extension GL_GOOGLE_include_directive : require
 #include "shared/window.h"
 #include "resources/compound_lens.glsl"

@@ -1,5 +1,5 @@
-// Output files that are either complete or not there: written beside the target under a temporary name, and
-// renamed over it when all went well.
+// Output files that are either complete or absent: written beside the target under a temporary name, and
+// renamed over it on success.
 #pragma once
 #include <cstddef>
 #include <cstdint>

@@ -7,9 +7,9 @@
 
 namespace slant {
 
-/// The value is the program's exit status (README, "Exit status").
+/// The value is the program's exit status (host/commands/README.md, "Exit status").
 enum class ErrorCode {
-    outOfBounds = 1, ///< `slant diff`: the images differ by more than was asked for
+    outOfBounds = 1, ///< `slant diff`: the images differ by more than the bounds allow
     usage = 2,       ///< wrong options or arguments
     badInput = 3,    ///< a file that is missing, malformed or outside the supported subset
     device = 4,      ///< no such Vulkan device, or the device was lost

@@ -1,4 +1,4 @@
-// A digest of contents, for keys of caches: not against malice.
+// A digest of contents, for cache keys; it does not resist deliberate collisions.
 #pragma once
 #include <cstdint>
 #include <fmt/format.h>
@@ -8,7 +8,7 @@
 
 namespace slant {
 
-/// FNV-1a of 64 bits (Fowler, Noll and Vo). What is added one after another counts as one sequence of bytes.
+/// FNV-1a of 64 bits (Fowler, Noll and Vo). Successive calls hash one continuous sequence of bytes.
 class Hash {
 public:
     void addBytes(std::string_view bytes) {

@@ -16,7 +16,7 @@ struct StageStats {
     double deviceSeconds = 0; ///< timestamps of the compute device; 0 on the CPU path
     std::uint64_t items = 0;  ///< what `unit` counts
     std::string unit;         ///< e.g. "samples", "outputs", "pixels"
-    std::uint64_t bytes = 0;  ///< largest memory that the stage's own buffers took
+    std::uint64_t bytes = 0;  ///< peak memory of the stage's own buffers
 };
 
 /// Receives progress; throws Error(interrupted) from advance() when the run is to stop.

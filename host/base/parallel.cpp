@@ -10,7 +10,8 @@ namespace slant {
 namespace {
 
 // oneTBB orders the pieces of a loop after what was before it and before what comes after it. ThreadSanitizer
-// cannot see into that library: this file is not instrumented (cmake/Compile.cmake), and says so instead.
+// cannot see into that library, so this file is not instrumented (cmake/Compile.cmake) and tells it the order
+// instead.
 #ifdef SLANT_THREAD_SANITIZER
 void release(void* address) {
     __tsan_release(address);

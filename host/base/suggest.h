@@ -1,4 +1,4 @@
-// "Did you mean": the nearest of a list of names to a misspelt one.
+// "Did you mean": the name in a list that is nearest to a misspelt one.
 #pragma once
 #include <span>
 #include <string>

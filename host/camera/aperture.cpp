@@ -106,7 +106,7 @@ double Aperture::meanTransmission() const {
 
 double shareOutside(const Aperture& aperture, float scale, const Aperture& other) {
     constexpr int kSteps = 200;
-    constexpr float kInwards = 0.999f; // the rim of a shape is in the shape itself, whatever rounding does
+    constexpr float kInwards = 0.999f; // keeps the rim of a shape inside it despite rounding
     int outside = 0;
     for (int j = 0; j < kSteps; ++j)
         for (int i = 0; i < kSteps; ++i) {
@@ -120,7 +120,7 @@ LensBox Aperture::box(vec2 squareMin, vec2 squareMax) const {
     const float kind = data_->table[0];
     if (kind > 0) return outlineBox(squareMin, squareMax);
     if (kind < 0) return weightsBox(squareMin, squareMax);
-    // Curved sides are sampled, and the box padded by more than what lies between two samples.
+    // Curved sides are sampled, and the box is padded by more than the curve deviates between two samples.
     constexpr int steps = 32;
     LensBox box{vec2(2), vec2(-2)};
     for (int j = 0; j <= steps; ++j)
@@ -130,8 +130,8 @@ LensBox Aperture::box(vec2 squareMin, vec2 squareMax) const {
     return {box.min - pad, box.max + pad};
 }
 
-/// The map is linear between the rays of the square on which its triangles meet or its diagonals lie, so that
-/// extremes are at corners of the rectangle and where such a ray enters or leaves it.
+/// The map is linear between the rays along which its triangles meet or its diagonals lie, so extremes are at
+/// corners of the rectangle and where such a ray enters or leaves it.
 LensBox Aperture::outlineBox(vec2 squareMin, vec2 squareMax) const {
     LensBox box{vec2(2), vec2(-2)};
     for (const float x : {squareMin.x, squareMax.x})

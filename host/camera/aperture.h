@@ -1,9 +1,9 @@
-// The opening of a lens, as what chooses lens positions: a map from the unit square onto it whose density is
-// in proportion to the light that passes, so that every position counts the same.
+// The opening of a lens, for choosing lens positions: a map from the unit square onto it whose density is
+// proportional to the light that passes, so that every position has the same weight.
 //
-// The disc's is Shirley and Chiu's concentric map. An outline's is the same with the disc's sectors replaced
-// by the triangles of the outline: linear within each, it keeps areas. Weights turn the angles and then the
-// distances of the disc's by their inverse cumulative distribution (shaders/lib/aperture.glsl).
+// For the disc it is Shirley and Chiu's concentric map. For an outline, the triangles of the outline replace
+// the sectors of the disc: linear within each, the map preserves areas. For weights, the angles and then the
+// distances in the disc go through the inverse of their cumulative distribution (shaders/lib/aperture.glsl).
 #pragma once
 #include "scene/aperture_shape.h"
 
@@ -30,7 +30,7 @@ public:
     glm::vec2 at(glm::vec2 square) const;
     /// The share of the light that passes there, 0 to 1; 0 outside.
     float transmission(glm::vec2 lens) const;
-    /// The mean of it over the disc.
+    /// Its mean over the disc.
     double meanTransmission() const;
     /// Encloses what at() makes of a rectangle of [-1, 1]^2; the disc's must not be much longer than wide.
     LensBox box(glm::vec2 squareMin, glm::vec2 squareMax) const;
@@ -53,7 +53,8 @@ private:
     std::shared_ptr<const Data> data_;
 };
 
-/// The share of an aperture's light, its lens `scale` times as wide, that would pass outside another one.
+/// The share of an aperture's light that would pass outside another one, its lens being `scale` times as
+/// wide.
 double shareOutside(const Aperture& aperture, float scale, const Aperture& other);
 
 } // namespace slant

@@ -15,7 +15,7 @@ public:
     /// Throws what the constructors of the kinds throw.
     explicit Camera(const Scene& scene) : kind_(make(scene)) {}
 
-    /// body(camera) with the camera itself, so that a loop within pays for the choice once.
+    /// Calls body(camera) with the concrete camera, so that a loop inside pays for the choice once.
     template <typename Body>
     decltype(auto) visit(Body&& body) const {
         return std::visit(body, kind_);
@@ -23,14 +23,14 @@ public:
     SlopeModel slopeModel() const {
         return visit([](const auto& camera) { return camera.slopeModel(); });
     }
-    /// Over which lens positions are spread.
+    /// The opening over which lens positions are spread.
     Aperture aperture() const {
         return visit([](const auto& camera) { return camera.aperture(); });
     }
     /// The lens, if the camera is of that kind.
     const CompoundLens* compoundLens() const { return std::get_if<CompoundLens>(&kind_); }
 
-    /// Empty, but through a lens of many surfaces.
+    /// Empty unless the lens is a compound lens.
     LensMap lensMap() const { return compoundLens() ? compoundLens()->lensMap() : LensMap(); }
 
 private:

@@ -15,7 +15,7 @@ constexpr double kMillimetres = 1000; ///< a metre
 constexpr double kFilmReach = 2;
 /// Rays that leave the lens at a right angle to its axis or backwards have no depth.
 constexpr double kMinForward = 1e-3;
-/// Where interpolation puts a ray outside the pupil, it is taken this much nearer to the centre, and so on.
+/// Where interpolation puts a ray outside the pupil, it moves this much nearer to the centre, repeatedly.
 constexpr float kInwards = 0.98f;
 constexpr int kInwardSteps = 8;
 
@@ -130,7 +130,7 @@ CameraSample CompoundLens::sample(glm::vec2 raster, glm::vec2 square) const {
     return dark(glm::vec2(0));
 }
 
-/// What is open is for the map to say, so that reconstruction finds the same.
+/// The map decides what is open, so that reconstruction finds the same.
 CameraSample CompoundLens::throughStop(glm::vec2 raster, glm::vec2 square) const {
     const glm::vec2 lens = aperture_.at(2.f * square - 1.f);
     const float weight = lensMap_.at(raster, lens).weight;

@@ -1,14 +1,14 @@
-// pbrt-v4's realistic camera: the film behind a lens of many surfaces, through which every ray is followed.
+// pbrt-v4's realistic camera: the film behind a compound lens, through which every ray is traced.
 //
-// Lens positions are places in the unit disc, which stands for the true pupil of each film point, the light
-// that comes through it spread evenly (exit_pupil.h). So all rays of a film point have the same weight, the
-// irradiance that the whole pupil gives it: the expectation of pbrt's estimate cos^4 area / distance^2,
-// without the third of its rays that a lens blocks. What the trajectories of scene points are like is for the
-// lens map to say (lens_map.h).
+// Lens positions are places in the unit disc, which stands for the true pupil of each film point, with the
+// light that comes through it spread evenly (exit_pupil.h). So all rays of a film point have the same weight,
+// the irradiance from the whole pupil: the expectation of pbrt's estimate cos^4 area / distance^2, without
+// the third of its rays that a lens blocks. The lens map describes the trajectories of scene points
+// (lens_map.h).
 //
-// Behind an opening of another shape the disc is that of the stop (stop_pupil.h), positions are spread as the
-// shape lets light pass, and rays weigh what their places give. As in pbrt, shapes are as bright as the disc
-// on the axis: the mean over the shape takes the place of that over the disc.
+// For an opening of another shape the disc is that of the stop (stop_pupil.h), positions are spread as the
+// shape lets light pass, and each ray is weighted by the irradiance of its place. As in pbrt, shapes are as
+// bright as the disc on the axis: the mean over the shape takes the place of that over the disc.
 #pragma once
 #include "camera/aperture.h"
 #include "camera/camera_sample.h"
@@ -33,7 +33,7 @@ struct ScenePath {
     std::array<Line, 4> change;
 };
 
-/// Whether those of surfaces, the stop's included, block rays that pass outside.
+/// Whether the rims of surfaces, the stop's included, block rays that pass outside.
 enum class Rims { block, ignore };
 
 /// Depths count from the entrance pupil, but at most from the front vertex, in camera space (metres).
@@ -45,10 +45,10 @@ public:
     /// `raster` in pixels, y downwards, on the film or beside it; `square` in [0, 1)^2.
     CameraSample sample(glm::vec2 raster, glm::vec2 square) const;
 
-    /// Of trajectories on the scene's side: c1 / depth + c2.
+    /// Slope of trajectories on the scene's side: c1 / depth + c2.
     SlopeModel slopeModel() const { return slopeModel_; }
     const LensMap& lensMap() const { return lensMap_; }
-    /// Where a ray meets the plane in focus, in pixels from the film's centre, and that of the entrance
+    /// Where a ray meets the plane in focus, in pixels from the film's centre, and the plane of the entrance
     /// pupil, in its radii: what the lens map tabulates.
     glm::dvec2 sceneRay(const ScenePath::Line& line) const {
         return pixelsPerTangent_ / focusDepth_ * line.at(focusDepth_);

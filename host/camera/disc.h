@@ -1,4 +1,4 @@
-// Mapping of the unit square onto the unit disc that keeps areas and nearness.
+// Mapping of the unit square onto the unit disc that preserves areas and keeps neighbours together.
 #pragma once
 #include <cmath>
 #include <glm/glm.hpp>

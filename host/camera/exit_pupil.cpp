@@ -10,13 +10,13 @@
 namespace slant {
 namespace {
 
-constexpr int kFirstScan = 64, kScan = 16; ///< points along one side of a coarse search
+constexpr int kFirstScan = 64, kScan = 16; ///< points per side of a coarse search
 constexpr int kDirections = 64;            ///< from the centre to the rim, over half a turn
 constexpr int kRadialSteps = 16;
 constexpr int kRoughBisections = 8, kBisections = 22;
-/// So that rounding does not carry a ray of the rim over it.
+/// Keeps rounding from carrying a ray at the rim over it.
 constexpr double kInside = 1 - 1e-9;
-/// A pupil further off than this many distances from film to lens stands for one at infinity.
+/// A pupil farther away than this many times the distance from film to lens stands for one at infinity.
 constexpr double kFarthestPlane = 1000;
 constexpr int kNodes = (PupilNodes::kTurns + 1) * (PupilNodes::kDistances + 1);
 
@@ -168,12 +168,12 @@ glm::dvec2 PupilNodes::direction(int turn) {
 ExitPupil::ExitPupil(const LensSystem& lens, double filmZ, double filmRadius)
     : filmRadius_(filmRadius), rings_(PupilNodes::kRings) {
     const double widest =
-        1.5 * lens.rearRadius(); // at z = 0 rays may be further out than at the rear surface
+        1.5 * lens.rearRadius(); // at z = 0 rays may be farther out than at the rear surface
     glm::dvec2 low(-widest), high(widest);
     for (int k = 0; k < PupilNodes::kRings; ++k) {
         const Probe probe(lens, filmZ, ringRadius(k));
         const std::optional<glm::dvec2> found = probe.scan(low, high, k == 0 ? kFirstScan : kScan);
-        if (!found) break; // and so it remains further out
+        if (!found) break; // and stays so farther out
         const HalfOutline half = probe.outline(
             middleOf(probe.outline(found->x, 2 * widest, kRoughBisections)), 2 * widest, kBisections);
         const std::vector<double> light = lightUpTo(probe, half);

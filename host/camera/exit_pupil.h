@@ -1,11 +1,11 @@
-// The exit pupil of a lens as it is seen from each place of the film: where rays get through, exactly, all
-// clear diameters counted.
+// The exit pupil of a lens as seen from each place on the film: exactly where rays get through, with all
+// clear diameters taken into account.
 //
 // It is mapped from the unit disc, for a series of film radii: nodes at directions and distances of the disc
 // each have their place on the pupil, such that equal areas of the disc receive equal shares of the light
-// that comes through the pupil (cos^4 counted). So places spread evenly over the disc need no weights, none
-// is lost, and only what interpolation puts a hair outside is blocked. The plane on which the pupil is
-// described is the one where it moves least as the film point moves, the exit pupil proper.
+// that comes through the pupil (cos^4 counted). So places spread evenly over the disc need no weights and
+// none is lost; only those that interpolation puts slightly outside are blocked. The plane on which the pupil
+// is described is the one where it moves least as the film point moves, the exit pupil proper.
 #pragma once
 #include "camera/lens_system.h"
 
@@ -64,7 +64,7 @@ public:
     double planeZ() const { return planeZ_; }
     /// The largest distance from the axis of any pupil on its plane.
     double radius() const { return radius_; }
-    /// Film radius from which on no light comes in; infinity if that is beyond filmRadius.
+    /// Film radius beyond which no light comes in; infinity if that is beyond filmRadius.
     double imageRadius() const;
 
 private:

@@ -1,4 +1,4 @@
-// A lens in section, as a picture.
+// A picture of a lens in section.
 #pragma once
 #include "camera/compound_lens.h"
 
@@ -6,8 +6,8 @@
 
 namespace slant {
 
-/// An SVG of glass, stop, film and of rays that reach the middle of the film and, in another colour, its edge
-/// at half the width: followed through the surfaces, spread over the pupil.
+/// An SVG of glass, stop, film, and rays that reach the middle of the film and, in another colour, its edge
+/// at half the width. The rays are traced through the surfaces and spread over the pupil.
 std::string drawLens(const CompoundLens& camera, double filmWidthMm);
 
 } // namespace slant

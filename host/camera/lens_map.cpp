@@ -75,7 +75,7 @@ LensMap makeLensMap(const CompoundLens& camera) {
                 const glm::dvec2 place =
                     stop ? stop->node(ring, turn, distance).place : pupil.node(ring, turn, distance);
                 const auto ray = lit ? traced(camera, px, place) : std::optional<Traced>();
-                if (ray) { // else beyond the image; as what is next to it
+                if (ray) { // else beyond the image: like its neighbour
                     const double aberration = ray->xy.x - interpolated(radii, radius, 0);
                     last = vec4(aberration / interpolated(radii, radius, 1),
                                 ray->xy.y / interpolated(radii, radius, 2), ray->uv);
@@ -117,17 +117,17 @@ const char* faultOf(const std::vector<vec4>& texels) {
     };
     if (!(head.z > 0 && shape.x > 0 && count(head.w, 2) && count(shape.y, 2) && count(shape.z, 1) &&
           count(shape.w, 1)))
-        return "has counts or steps that are no table's";
+        return "has invalid counts or steps";
     const double nodes = double(shape.y) * (double(shape.z) + 1) * (double(shape.w) + 1);
     if (double(texels.size()) != kLensMapHeader + double(head.w) + (ofStop ? 2 : 1) * nodes)
-        return "has another length than its counts say";
+        return "does not have the length that its counts give";
     for (std::size_t i = 0; i < std::size_t(head.w); ++i) {
         const vec4& radius = texels[std::size_t(kLensMapHeader) + i];
         if (!(radius.y > 0 && radius.z > 0 && radius.w >= 0)) return "has a scale or irradiance below 0";
     }
     for (std::size_t i = texels.size() - (ofStop ? std::size_t(nodes) : 0); i < texels.size(); ++i)
         if (!(texels[i].x >= 0 && texels[i].z >= 0 && texels[i].z <= 1))
-            return "has an irradiance below 0, or a share that is none";
+            return "has an irradiance below 0, or an invalid share";
     return nullptr;
 }
 

@@ -1,18 +1,18 @@
-// Where a lens of many surfaces sends its rays: from film and exit pupil to the scene's side.
+// Where a compound lens sends its rays: from film and exit pupil to the scene's side.
 //
 // On the scene's side rays are straight, whatever the lens does to them. So a ray is described there by where
-// it meets two planes: `uv`, the plane of the entrance pupil, in units of its radius on the axis; and `xy`,
+// it crosses two planes: `uv`, the plane of the entrance pupil, in units of its radius on the axis; and `xy`,
 // the plane in focus, in pixels as seen from the pupil's centre. A fixed point at depth w then moves along an
 // exact line, of slope C1 / w + C2 as through a thin lens, distortion, aberrations and the wandering of the
 // pupil notwithstanding; and xy is near to the raster position, but for these.
 //
 // On the film's side a ray is given by its raster position and by a place in the unit disc, which stands for
 // the pupil as it is seen from there, cat's eye and all, equal areas for equal shares of light. The lens is
-// symmetric about its axis, so that the map has three variables: film radius, and two for the disc. It is a
-// table, the same for all who use it, interpolated linearly: in coarse rings what aberrations do, in fine
-// ones the rest. Where the disc is that of the stop, the table says also what each place gives the film and
-// how far within all rims its rays stay: beyond them they go on as if there were none, so that what lies
-// between is smooth. Single floats and + - * / sqrt only (shaders/lib/lens_map.glsl).
+// symmetric about its axis, so the map has three variables: film radius, and two for the disc. It is a table,
+// the same for all its users, interpolated linearly: aberrations in coarse rings, the rest in fine ones.
+// Where the disc is that of the stop, the table also holds the irradiance of the film from each place and how
+// far inside all rims its rays stay: beyond the rims they go on as if there were none, so that the values
+// between are smooth. Single floats and + - * / sqrt only (shaders/lib/lens_map.glsl).
 #pragma once
 #include "shared/lens_map.h"
 
@@ -38,7 +38,7 @@ private:
     std::vector<vec4> texels_;
 };
 
-/// What is wrong with texels that are to be a map; nullptr if nothing is.
+/// What is wrong with texels that should form a map; nullptr if nothing is.
 const char* faultOf(const std::vector<vec4>& texels);
 
 class CompoundLens;

@@ -31,7 +31,7 @@ struct Paraxial {
 } // namespace
 
 LensSystem::LensSystem(const LensPrescription& lens, double stopDiameterMm) {
-    // Summed from the rear, so that the rear vertex is at 0 exactly and the distance to the film, which some
+    // Summed from the rear, so that the rear vertex is exactly at 0 and the distance to the film, which some
     // files give there, does not matter.
     std::vector<double> vertices(lens.surfaces.size());
     for (std::size_t i = lens.surfaces.size() - 1; i-- > 0;)

@@ -37,12 +37,13 @@ public:
     /// Follows a ray from the film until it has left the front surface, with its derivatives, if any. False
     /// if it misses a surface, passes outside a clear diameter, or is totally reflected.
     bool traceFromFilm(LensRay& ray, std::span<LensRayDerivative> derivatives = {}) const;
-    /// The same, but no clear diameter stops the ray: how far within them, the stop's apart, it stays, as the
-    /// least of 1 - (height / clear radius)^2. Nothing if it misses a surface or is totally reflected.
+    /// The same, but no clear diameter stops the ray. Returns how far inside all of them but the stop's it
+    /// stays, as the least of 1 - (height / clear radius)^2; nothing if it misses a surface or is totally
+    /// reflected.
     std::optional<double> traceBesideRims(LensRay& ray, std::span<LensRayDerivative> derivatives = {}) const;
-    /// From the film to the plane of the stop, whatever the clear diameters; false likewise.
+    /// From the film to the plane of the stop, ignoring clear diameters; false in the same cases.
     bool traceToStop(LensRay& ray, std::span<LensRayDerivative> derivatives) const;
-    /// From the scene as traceFromFilm, until it has left the rear surface.
+    /// As traceFromFilm, but from the scene until the ray has left the rear surface.
     bool traceFromScene(LensRay& ray) const;
 
     /// For drawings: where a ray from the film begins, meets each surface and reaches the plane z = `front`;

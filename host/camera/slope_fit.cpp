@@ -53,7 +53,7 @@ glm::dmat2 slopeMatrix(const ScenePath& path, double inverseDepth) {
 
 SlopeFit fitSlopes(const CompoundLens& camera, double nearDepth, double farDepth) {
     SlopeFit fit;
-    // As far as there is light.
+    // Only as far out as there is light.
     const double reachMm = std::min(camera.pupil().imageRadius(), camera.pupil().filmRadius());
     fit.radiusPx = reachMm / camera.millimetresPerPixel();
     LineFit whole;
@@ -76,7 +76,7 @@ SlopeFit fitSlopes(const CompoundLens& camera, double nearDepth, double farDepth
                     whole.add(q, glm::dvec2((s.x + s.y) / 2), px * light);
             }
         }
-        // Where nothing gets through, what was last seen is as good as anything.
+        // Where nothing gets through, the last value is as good as any.
         fit.byRadius.push_back(line.count > 0 || k == 0 ? line.result() : fit.byRadius.back());
     }
     fit.whole = whole.result();

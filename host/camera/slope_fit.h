@@ -1,6 +1,6 @@
-// Slope models on the film's side: how much a sample has to know to say where its point is seen
-// through another part of the exit pupil. A lens that images sharply needs two constants; that real ones need
-// more, and how much even the best leaves, is why rays are described on the scene's side (lens_map.h).
+// Slope models on the film's side: how much a sample has to know to predict where its point is seen through
+// another part of the exit pupil. A lens that images sharply needs two constants. Real lenses need more, and
+// even the best model leaves an error: that is why rays are described on the scene's side (lens_map.h).
 #pragma once
 #include "camera/compound_lens.h"
 
@@ -23,7 +23,7 @@ struct RadialSlope {
     glm::dvec2 at(double inverseDepth) const { return c1 * inverseDepth + c2; }
 };
 
-/// Of the lower fits.
+/// Parameters of the lower fits.
 struct SlopeFit {
     RadialSlope whole;                 ///< the same in both directions
     std::vector<RadialSlope> byRadius; ///< evenly spaced from 0 to radiusPx

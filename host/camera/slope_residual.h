@@ -20,8 +20,8 @@ struct DepthResiduals {
     Residual lens;       ///< one slope for the whole lens
     Residual radiusMean; ///< by film radius, the mean of radial and tangential
     Residual radius;     ///< by film radius, the two apart
-    /// The same, after what the lens does to points in focus has been taken off raster positions: by how much
-    /// trajectories are curved in the same way at all depths.
+    /// The same, after subtracting from raster positions what the lens does to points in focus: how much
+    /// trajectories curve in the same way at all depths.
     Residual corrected;
     Residual sampleMean; ///< by sample, the isotropic part
     Residual sample;     ///< by sample, 2 x 2
@@ -34,8 +34,8 @@ std::vector<DepthResiduals> slopeResiduals(const CompoundLens& camera, double ne
 /// The largest 95th percentile of a fit's isotropic slopes.
 double worstResidual(const std::vector<DepthResiduals>& residuals, SlopeFitKind fit);
 
-/// The lowest fit whose isotropic residuals stay within the tolerance by their 95th percentile at each
-/// depth; else the one of the smallest.
+/// The lowest fit whose isotropic residuals have a 95th percentile within the tolerance at each depth; else
+/// the fit with the smallest one.
 SlopeFitKind selectSlopeFit(const std::vector<DepthResiduals>& residuals, double tolerancePx);
 
 } // namespace slant

@@ -95,7 +95,7 @@ StopPupil::StopPupil(const LensSystem& lens, double filmZ, const ExitPupil& pupi
                 if (node) {
                     step = distance > 0 ? node->place - last.place : glm::dvec2(0);
                     last = *node;
-                } else { // as what is next to it, but dark
+                } else { // like its neighbour, but dark
                     last.clearance = -1;
                 }
                 nodes_.push_back(last);

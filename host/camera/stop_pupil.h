@@ -1,10 +1,10 @@
-// The exit pupil of a lens by places on its stop: where the rays through each of them reach the film, for
-// openings of other shapes than the disc.
+// The exit pupil of a lens by places on its stop: where the rays through each place reach the film, for
+// openings that are not discs.
 //
-// Unlike the disc of exit_pupil.h, which stands for what is left of a pupil at each film point, that of the
-// stop is the same for all, so that a shape can be laid upon it. So rays weigh differently: by what a place
-// of the stop gives the film in irradiance; and there are places from which no ray gets there, because of
-// the rims of other surfaces.
+// The disc of exit_pupil.h stands for what is left of a pupil at each film point; the disc of the stop is the
+// same for all, so that a shape can be placed on it. So rays differ in weight, by the irradiance that a place
+// on the stop gives the film; and from some places no ray gets through, because of the rims of other
+// surfaces.
 #pragma once
 #include "camera/exit_pupil.h"
 
@@ -21,10 +21,10 @@ public:
 
     StopPupil(const LensSystem& lens, double filmZ, const ExitPupil& pupil);
 
-    /// As ExitPupil::at.
+    /// See ExitPupil::at.
     glm::dvec2 at(double r, glm::dvec2 stop) const;
     const Node& node(int ring, int turn, int distance) const;
-    /// The share of the stop from which light comes.
+    /// The share of the stop that light comes from.
     double openShare(int ring) const { return openShares_[std::size_t(ring)]; }
 
 private:

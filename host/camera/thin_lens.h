@@ -28,7 +28,7 @@ public:
     }
 
     /// The same for `square` in [0, 1)^2, spread over the lens as light passes through its aperture. Every
-    /// weight is 1: brightness does not depend on how much is open, as in pbrt.
+    /// weight is 1: brightness does not depend on how much of the lens is open, as in pbrt.
     CameraSample sample(glm::vec2 raster, glm::vec2 square) const {
         const glm::vec2 lens =
             aperture_.isDisc() ? concentricDisc(square.x, square.y) : aperture_.at(2.f * square - 1.f);

@@ -35,7 +35,7 @@ struct ChartOptions {
     std::string file(const std::string& name) const { return (fs::path(directory) / name).string(); }
 };
 
-/// `text` at its commas; throws CLI::ValidationError where a word is empty or twice there.
+/// Splits `text` at its commas; throws CLI::ValidationError if a word is empty or occurs twice.
 std::vector<std::string> wordsOf(const std::string& option, const std::string& text) {
     std::vector<std::string> words;
     for (std::size_t begin = 0; begin <= text.size();) {
@@ -51,7 +51,7 @@ std::vector<std::string> wordsOf(const std::string& option, const std::string& t
     return words;
 }
 
-/// Ascending numbers of a list, each of which `isRight`; `what` says what would be right.
+/// The numbers of a list, ascending, each of which satisfies `isRight`; `what` names what would be right.
 template <typename Check>
 std::vector<int> numbersOf(const std::string& option, const std::string& text, const std::string& what,
                            const Check& isRight) {
@@ -89,14 +89,14 @@ std::string jsonText(const Results& results) {
     return toJson(results).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-/// The points that an earlier run has left; none if there was no such run.
+/// The points of an earlier run; none if there was no such run.
 std::vector<Point> knownPoints(const ChartOptions& options) {
     const std::string path = options.file("results.json");
     if (options.fresh || !fs::exists(path)) return {};
     try {
         return pointsFromJson(nlohmann::ordered_json::parse(readFile(path)));
     } catch (const nlohmann::json::exception&) {
-        throw badInput({path}, "is no results file of slant chart (--fresh starts anew)");
+        throw badInput({path}, "is not a results file of slant chart (--fresh starts anew)");
     }
 }
 
@@ -166,7 +166,7 @@ void runChart(ChartOptions options) {
     fmt::print("{}\n", options.file("index.html"));
 }
 
-/// Settings that nobody gave.
+/// Defaults of the settings that were not given.
 void fillDefaults(ChartOptions& options, const CLI::App& command) {
     const auto given = [&](const char* name) { return command.count(name) > 0; };
     SweepOptions& sweep = options.sweep;
@@ -204,26 +204,26 @@ void addChart(CLI::App& program) {
         ->required()
         ->type_name("DIR");
     addList(*command, "--methods", sweep.methods, "A,B,...",
-            fmt::format("of {} (default all)", fmt::join(methodNames(), ", ")), methodsOf);
-    addList(*command, "--spp", sweep.samples, "N,N,...", "input samples a pixel (default 1,2,4,8,16)",
+            fmt::format("any of {} (default all)", fmt::join(methodNames(), ", ")), methodsOf);
+    addList(*command, "--spp", sweep.samples, "N,N,...", "input samples per pixel (default 1,2,4,8,16)",
             [](const std::string& text) {
                 return numbersOf("--spp", text, fmt::format("a number from 1 to {}", kMaxSamplesPerPixel),
                                  [](int n) { return n >= 1 && n <= kMaxSamplesPerPixel; });
             });
-    addList(*command, "--outputs", sweep.outputs, "N,N,...", "output samples a pixel (default 128)",
+    addList(*command, "--outputs", sweep.outputs, "N,N,...", "output samples per pixel (default 128)",
             [](const std::string& text) {
                 return numbersOf("--outputs", text,
                                  fmt::format("a power of two from 1 to {}", kMaxOutputsPerPixel),
                                  [](int n) { return isOutputCount(n); });
             });
     addList(*command, "--devices", sweep.devices, "A,B,...",
-            "of auto, cpu, parts of Vulkan devices' names (default auto)",
+            "any of auto, cpu, parts of Vulkan device names (default auto)",
             [](const std::string& text) { return wordsOf("--devices", text); });
-    addNumber<int>(*command, "--repeat", sweep.repeat, 1, 1000, "timed runs of each point (default 3)");
+    addNumber<int>(*command, "--repeat", sweep.repeat, 1, 1000, "timed runs per point (default 3)");
     addNumber<int>(*command, "--truth-spp", sweep.truthSpp, 64, kMaxSamplesPerPixel,
-                   "samples a pixel of the ground truth (default 4096)");
+                   "samples per pixel of the ground truth (default 4096)");
     addNumber<float>(*command, "--exposure", sweep.exposure, -30, 30,
-                     "stops, of pictures and FLIP (default 0)");
+                     "exposure of pictures and FLIP in stops (default 0)");
     command->add_flag("--quick", options->quick,
                       "half the resolution, fewer and smaller settings: minutes instead of an hour");
     command->add_flag("--fresh", options->fresh, "measure again what DIR/results.json holds already");

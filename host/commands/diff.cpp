@@ -30,14 +30,14 @@ struct Figures {
     double flip; ///< mean
 };
 
-/// Channels beside the colours that both images have, under the name that they share, as N of N.X.
+/// Channels beyond the colours that both images have, by their layer's name: N for N.X.
 struct Layer {
     std::string name;
     std::vector<std::string> channels;
     Metrics metrics;
 };
 
-/// What is compared.
+/// The parts of the images that are compared.
 struct Parts {
     std::vector<std::string> colours;  ///< R, G, B if both images have them; else none, and all is one
     std::vector<Layer> layers;         ///< in the order of the image's channels
@@ -82,7 +82,7 @@ Parts partsOf(const Image& image, const Image& reference) {
     return parts;
 }
 
-/// What is out of bounds and by how much, each bound in its own words; empty if all is well.
+/// Which figures are out of bounds and by how much, one entry each; empty if all is well.
 std::vector<std::string> violations(const Figures& figures, const Parts& parts, const DiffOptions& options) {
     const Metrics& m = figures.metrics;
     std::vector<std::string> list;
@@ -240,13 +240,14 @@ void addDiff(CLI::App& program) {
     command->add_option("--heat-map", options->heatMap, "write a picture of the errors")
         ->type_name("FILE.png");
     addNumber<float>(*command, "--exposure", options->exposure, -30, 30,
-                     "stops, of the pictures that FLIP compares (default 0)");
+                     "exposure of the pictures that FLIP compares, in stops (default 0)");
     constexpr double kHuge = 1e30;
     addNumber<double>(*command, "--max-mse", options->maxMse, 0, kHuge, "mean squared error allowed");
     addNumber<double>(*command, "--max-relmse", options->maxRelMse, 0, kHuge,
                       "mean of err^2/(ref^2 + 0.01) allowed");
-    addNumber<double>(*command, "--min-psnr", options->minPsnr, -kHuge, kHuge, "dB asked for, peak 1");
-    addNumber<double>(*command, "--max-abs", options->maxAbs, 0, kHuge, "largest error of a value allowed");
+    addNumber<double>(*command, "--min-psnr", options->minPsnr, -kHuge, kHuge,
+                      "lowest PSNR allowed, in dB for a peak of 1");
+    addNumber<double>(*command, "--max-abs", options->maxAbs, 0, kHuge, "largest error allowed for a value");
     addNumber<double>(*command, "--max-drift", options->maxDrift, 0, kHuge,
                       "relative change of mean brightness allowed (0.005 = 0.5 %)");
     addNumber<double>(*command, "--max-p99", options->maxP99, 0, kHuge, "99th percentile of errors allowed");

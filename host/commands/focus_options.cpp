@@ -18,7 +18,8 @@ void addFocusOptions(CLI::App& command, FocusOptions& options) {
         return addNumber<double>(command, name, target, kSmallestDistance, kLargestDistance, help)
             ->type_name("D");
     };
-    CLI::Option* const single = distance("--focus-distance", options.distance, "focus there instead");
+    CLI::Option* const single =
+        distance("--focus-distance", options.distance, "focus at this distance instead");
     CLI::Option* const from = distance("--focus-from", options.from, "first focus of a pull");
     CLI::Option* const to = distance("--focus-to", options.to, "last focus of a pull");
     CLI::Option* const frames = addNumber<int>(command, "--frames", options.frames, 2, kMaxFrames,
@@ -29,10 +30,10 @@ void addFocusOptions(CLI::App& command, FocusOptions& options) {
     frames->needs(from)->needs(to);
 
     CLI::Option* const scale = addNumber<float>(command, "--aperture-scale", options.apertureScale, 0, 100,
-                                                "lens radius over the traced one")
+                                                "lens radius relative to the traced one")
                                    ->type_name("A");
     CLI::Option* const stop = addNumber<float>(command, "--f-stop", options.fStop, 1e-3f, 1e6f,
-                                               "f-number, where the field says its focal length")
+                                               "f-number, if the field gives its focal length")
                                   ->type_name("N");
     CLI::Option* const pinhole = command.add_flag_callback(
         "--pinhole", [&options] { options.apertureScale = 0.f; }, "no blur: the view from the lens's centre");
@@ -59,7 +60,7 @@ float apertureScale(const FocusOptions& options, const FieldMetadata& details) {
     if (!options.fStop) return options.apertureScale.value_or(1.f);
     if (!(details.focalLength > 0) || !(details.lensRadius > 0))
         throw Error(ErrorCode::usage,
-                    "--f-stop needs a field that says its focal length and lens radius "
+                    "--f-stop needs a field that gives its focal length and lens radius "
                     "(slant:focalLength, slant:lensRadius), and a perspective camera has no "
                     "focal length; use --aperture-scale");
     return details.focalLength / (2 * *options.fStop * details.lensRadius);

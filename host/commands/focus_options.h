@@ -1,4 +1,4 @@
-// How `reconstruct` looks through another lens than the one that a light field was traced with.
+// Options of `reconstruct` that look through another lens than the traced one.
 #pragma once
 #include "lightfield/field_file.h"
 #include "reconstruct/prepared_field.h"
@@ -13,7 +13,7 @@ namespace slant::commands {
 struct FocusOptions {
     std::optional<double> distance;     ///< in the unit of w
     std::optional<double> from, to;     ///< of a focus pull
-    int frames = 0;                     ///< of it; 0: a single picture
+    int frames = 0;                     ///< of the pull; 0: a single picture
     std::optional<float> apertureScale; ///< of the traced lens radius
     std::optional<float> fStop;
     std::string aperture; ///< name or image file of its shape; empty: as traced
@@ -31,8 +31,8 @@ void checkFocusOptions(const FocusOptions& options, Method method);
 /// it takes.
 float apertureScale(const FocusOptions& options, const FieldMetadata& details);
 
-/// Focus distance of each picture; unset: as traced. A pull takes even steps of 1/distance, in which blur is
-/// even.
+/// Focus distance of each picture; unset: as traced. A pull takes even steps of 1/distance, so that blur
+/// changes evenly.
 std::vector<std::optional<double>> focusDistances(const FocusOptions& options);
 
 /// "pull.exr" -> "pull-0007.exr"; an empty path stays empty.

@@ -1,4 +1,4 @@
-// slant info: what a light field's file holds.
+// slant info: what a light field file holds.
 #include "commands/commands.h"
 #include "commands/picture_job.h"
 #include "lightfield/field_file.h"
@@ -17,7 +17,7 @@ struct InfoOptions {
     bool json = false;
 };
 
-/// What the constants say of the camera, as far as they do.
+/// What the slope constants tell about the camera, where they do.
 struct DerivedCamera {
     std::optional<double> focusDistance;    ///< of a thin lens; unset: at infinity, or a pinhole
     std::optional<double> pixelsPerTangent; ///< these two where the lens radius is known
@@ -170,7 +170,7 @@ void runInfo(const InfoOptions& options) {
 } // namespace
 
 void addInfo(CLI::App& program) {
-    CLI::App* command = program.add_subcommand("info", "Say what a light field's file holds");
+    CLI::App* command = program.add_subcommand("info", "Show what a light field file holds");
     const auto options = std::make_shared<InfoOptions>();
     command->add_option("FIELD", options->file, "light field: deep OpenEXR or TLFR")
         ->required()

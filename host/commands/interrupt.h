@@ -4,7 +4,8 @@
 
 namespace slant::commands {
 
-/// From now on the first SIGINT or SIGTERM only sets a flag; a second one of the same kind ends at once.
+/// From now on the first SIGINT or SIGTERM only sets a flag; a second one of the same kind ends the program
+/// at once.
 void catchInterrupts();
 
 /// Whether such a signal has come. Any thread.

@@ -1,4 +1,4 @@
-// slant lens: what a lens is like, and how much of a model its light fields need.
+// slant lens: describes a lens, and how elaborate a slope model its light fields need.
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "camera/lens_drawing.h"
@@ -18,7 +18,7 @@
 namespace slant::commands {
 namespace {
 
-// Where nothing else is asked for.
+// Defaults.
 constexpr double kFNumber = 2.8;
 constexpr double kFocusInFocalLengths = 20, kFocusInNearest = 1.2;
 constexpr double kFullFrameMm = 43.27; ///< diagonal
@@ -55,7 +55,7 @@ Subject fromScene(const LensOptions& options) {
     Scene scene = readScene(options.file, monitor);
     if (!scene.realistic)
         throw badInput({options.file}, "the camera of this scene is not \"realistic\": it has no lens");
-    scene.realistic->aperture = {}; // figures and drawing are those of the round stop
+    scene.realistic->aperture = {}; // figures and drawing are for the round stop
     const Tracer tracer(scene, monitor);
     const CompoundLens& camera = *tracer.camera().compoundLens();
     const auto [nearest, farthest] = tracer.depthRange();
@@ -172,13 +172,13 @@ void addLens(CLI::App& program) {
         ->required()
         ->type_name("");
     addNumber<double>(*command, "--aperture", options->apertureMm, 1e-3, 1e6,
-                      "mm, diameter of the stop (default: f/2.8, or the widest)");
+                      "diameter of the stop in mm (default: f/2.8, or the widest)");
     addNumber<double>(*command, "--focus-distance", options->focusDistance, 1e-3, 1e9,
-                      "m, from the film (default: 20 focal lengths)");
+                      "distance from the film in m (default: 20 focal lengths)");
     addNumber<double>(*command, "--diagonal", options->diagonalMm, 1e-3, 1e6,
-                      "mm, of the film (default: 43.27, or what the image circle holds)");
+                      "diagonal of the film in mm (default: 43.27, or what fits the image circle)");
     addNumber<double>(*command, "--tolerance", options->tolerancePx, 0, 1e6,
-                      "pixels, that a slope model may be off (default 0.25)");
+                      "pixels that a slope model may be off (default 0.25)");
     command->add_option("--svg", options->svg, "draw the lens with rays")->type_name("FILE.svg");
     command->callback([options] { runLens(*options); });
 }

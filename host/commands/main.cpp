@@ -33,7 +33,7 @@ std::vector<std::string> optionNames(const CLI::App& command) {
     return names;
 }
 
-/// Unknown words come first: what the parser says of them is often only their consequence.
+/// Unknown words come first: what the parser reports is often only their consequence.
 std::string usageMessage(const CLI::App& program, const CLI::ParseError& error) {
     const CLI::App& command = activeCommand(program);
     const bool atTop = &command == &program;
@@ -72,7 +72,8 @@ int run(CLI::App& program, int argc, char** argv) {
 int main(int argc, char** argv) {
     try {
         commands::catchInterrupts();
-        CLI::App program("Reconstructs images with defocus from a few light-field samples a pixel.", "slant");
+        CLI::App program("Reconstructs images with defocus from a few light-field samples per pixel.",
+                         "slant");
         program.set_version_flag("--version", "slant " SLANT_VERSION);
         program.require_subcommand(1);
         for (const auto add : commands::kCommands) add(program);

@@ -46,12 +46,12 @@ std::optional<Rect> parseCrop(std::string_view text) {
 
 void addSeedOption(CLI::App& command, CommonOptions& options) {
     addNumber<std::uint64_t>(command, "--seed", options.seed, 0, std::numeric_limits<std::uint64_t>::max(),
-                             "of the sampling pattern (default 0)");
+                             "seed of the sampling pattern (default 0)");
 }
 
 void addSamplingOptions(CLI::App& command, CommonOptions& options) {
     addNumber<int>(command, "--spp", options.spp, 1, kMaxSamplesPerPixel,
-                   "samples a pixel (default: the scene's pixelsamples)");
+                   "samples per pixel (default: the scene's pixelsamples)");
     addSeedOption(command, options);
     const auto crop = [&options](const std::string& text) {
         options.crop = parseCrop(text);
@@ -74,14 +74,15 @@ void addWindowOptions(CLI::App& command, CommonOptions& options) {
             [&options, name = option->get_name()](const std::string&) { options.windowOption = name; });
     };
     noted(addNumber<int>(command, "--window-range", window.rangePx, 0, kMaxRangePx,
-                         "of window: pixels to each side (default 4)"));
+                         "for window: pixels to each side (default 4)"));
     noted(addNumber<float>(command, "--window-alpha", window.alpha, 0, 1e6f,
-                           "of window: the Gaussian's, per square pixel (default 100)"));
+                           "for window: alpha of the Gaussian, per square pixel (default 100)"));
     noted(addNumber<float>(command, "--window-delta", window.lensStep, 0, 2,
-                           "of window: lens radii within which no trajectories of a surface cross (default "
+                           "for window: lens radii within which no trajectories of a surface cross (default "
                            "1/sqrt(spp))"));
-    noted(command.add_flag("--window-fill", window.fill,
-                           "of window: no black holes; where no sample is near, the nearest of the window"));
+    noted(command.add_flag(
+        "--window-fill", window.fill,
+        "for window: no black holes; where no sample is near, take the nearest of the window"));
 }
 
 } // namespace
@@ -104,7 +105,8 @@ void addReconstructionOptions(CLI::App& command, CommonOptions& options) {
         options.outSpp = *count;
     };
     command
-        .add_option_function<std::string>("--out-spp", outSpp, "reconstructed samples a pixel (default 128)")
+        .add_option_function<std::string>("--out-spp", outSpp,
+                                          "reconstructed samples per pixel (default 128)")
         ->type_name("N");
     const auto method = [&options](const std::string& text) {
         const std::optional<Method> parsed = parseMethod(text);
@@ -127,7 +129,7 @@ void addReconstructionOptions(CLI::App& command, CommonOptions& options) {
     };
     command
         .add_option_function<std::string>("--debug-image", debugImage,
-                                          "of auto: write OUTPUT.layer-map.png, white where outputs came "
+                                          "for auto: write OUTPUT.layer-map.png, white where outputs came "
                                           "from the layer map, black where not")
         ->type_name("layer-map");
     command
@@ -140,12 +142,14 @@ void addReconstructionOptions(CLI::App& command, CommonOptions& options) {
                 "--memory", fmt::format("'{}' is not a size such as 512M or 2G, at least 16M", text));
         options.memoryBytes = *size;
     };
-    command.add_option_function<std::string>("--memory", memory, "budget of the reconstruction (default 1G)")
+    command
+        .add_option_function<std::string>("--memory", memory,
+                                          "memory budget of the reconstruction (default 1G)")
         ->type_name("SIZE");
 }
 
 void addRunOptions(CLI::App& command, CommonOptions& options) {
-    addNumber<int>(command, "--threads", options.threads, 0, 1024, "threads (default 0: one a core)");
+    addNumber<int>(command, "--threads", options.threads, 0, 1024, "threads (default 0: one per core)");
     command.add_flag("--quiet", options.quiet, "no progress on stderr");
     command.add_option("--stats", options.statsPath, "write seconds, items and rates of each stage as JSON")
         ->type_name("FILE.json");

@@ -16,17 +16,17 @@ inline constexpr int kMaxSamplesPerPixel = 1 << 16;
 
 struct CommonOptions {
     // What to sample.
-    std::optional<int> spp; ///< input samples a pixel; unset: what the scene asks for
+    std::optional<int> spp; ///< input samples per pixel; unset: what the scene asks for
     std::uint64_t seed = 0;
     std::optional<Rect> crop; ///< pixels; unset: what the scene asks for
     // How to reconstruct.
-    int outSpp = 128; ///< output samples a pixel
+    int outSpp = 128; ///< output samples per pixel
     Method method = Method::automatic;
     WindowOptions window;
     std::string windowOption;                           ///< one of them that was given; empty: none
     std::string device = "auto";                        ///< auto, cpu, or part of a device's name
     std::uint64_t memoryBytes = std::uint64_t(1) << 30; ///< for dense samples and intermediate buffers
-    bool debugLayerMap = false;                         ///< write a picture of where the layer map served
+    bool debugLayerMap = false;                         ///< write a picture of where the layer map was used
     // How to run.
     int threads = 0; ///< 0 = all cores
     bool quiet = false;
@@ -44,8 +44,7 @@ void checkMethodOptions(const CommonOptions& options);
 /// --threads, --quiet, --stats
 void addRunOptions(CLI::App& command, CommonOptions& options);
 
-/// The whole of `text` as a number, without sign of plus, hexadecimal, spaces; nothing if it is none or if it
-/// is not finite.
+/// All of `text` as a finite number; nothing if it is not one. No plus sign, hexadecimal digits or spaces.
 template <typename Number>
 std::optional<Number> parseNumber(std::string_view text) {
     Number value{};

@@ -35,10 +35,12 @@ void addSceneOption(CLI::App& command, std::string& scene) {
 
 void addImageOptions(CLI::App& command, PictureOptions& options) {
     command.add_option("--png", options.png, "write an 8-bit sRGB picture too")->type_name("FILE.png");
-    addNumber<float>(command, "--exposure", options.exposure, -30, 30, "stops, of the PNG (default 0)");
+    addNumber<float>(command, "--exposure", options.exposure, -30, 30,
+                     "exposure of the PNG in stops (default 0)");
     command.add_flag("--float", options.float32, "32-bit floats in the EXR instead of half");
-    command.add_flag("--auxiliary", options.auxiliary,
-                     "coverage, depth, albedo and normals as further channels of the EXR: A, Z, albedo, N");
+    command.add_flag(
+        "--auxiliary", options.auxiliary,
+        "write coverage, depth, albedo and normals as further channels of the EXR: A, Z, albedo, N");
 }
 
 void addPictureOptions(CLI::App& command, PictureOptions& options) {

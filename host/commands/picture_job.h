@@ -19,17 +19,17 @@ struct PictureOptions {
     std::string png;    ///< empty: none
     float exposure = 0; ///< stops, of the PNG
     bool float32 = false;
-    bool auxiliary = false; ///< with further channels: reconstruct/auxiliary.h
+    bool auxiliary = false; ///< with further channels: render/auxiliary.h
 };
 
 /// SCENE
 void addSceneOption(CLI::App& command, std::string& scene);
 /// --png, --exposure, --float, --auxiliary
 void addImageOptions(CLI::App& command, PictureOptions& options);
-/// SCENE, -o, those of addImageOptions and the common options but those of the reconstruction.
+/// SCENE, -o, those of addImageOptions, and the common options except those of the reconstruction.
 void addPictureOptions(CLI::App& command, PictureOptions& options);
 
-/// Where --debug-image layer-map writes to.
+/// The file that --debug-image layer-map writes.
 std::string mapSharePath(const PictureOptions& options);
 /// Throws Error(resources) for outputs that cannot be written, before any work is done.
 void checkOutputs(const PictureOptions& options);
@@ -37,7 +37,7 @@ void checkOutputs(const PictureOptions& options);
 /// Reads the scene and applies --crop and --spp.
 Scene readSceneFor(const std::string& path, const CommonOptions& options, Monitor& monitor);
 
-/// Says which samples were bad and how many pixels are black for want of samples.
+/// Reports which samples were bad and how many pixels are black because no sample reached them.
 void warnOf(const FieldDefects& defects, std::uint64_t emptyPixels, Monitor& monitor);
 
 /// Writes EXR, PNG and statistics. `details` goes into the metadata of the EXR and into the statistics.

@@ -1,4 +1,4 @@
-// slant reconstruct: pictures from a light field in a file, through the traced lens or another.
+// slant reconstruct: pictures from a light field file, through the traced lens or another.
 #include "base/parallel.h"
 #include "commands/commands.h"
 #include "commands/focus_options.h"
@@ -31,10 +31,10 @@ FieldFile readFieldFor(const std::string& path, Monitor& monitor) {
     return file;
 }
 
-/// Share of a lens that need not be spoken of.
+/// Share of a lens that is too small for a warning.
 constexpr double kNegligible = 0.005;
 
-/// One run: a field, and the pictures that are made of it.
+/// One run: a field and the pictures made from it.
 class Job {
 public:
     Job(const FromFileOptions& options, TerminalMonitor& monitor)
@@ -158,8 +158,7 @@ void runReconstruct(const FromFileOptions& options) {
 } // namespace
 
 void addReconstruct(CLI::App& program) {
-    CLI::App* command =
-        program.add_subcommand("reconstruct", "Reconstruct the picture of a light field's file");
+    CLI::App* command = program.add_subcommand("reconstruct", "Reconstruct pictures from a light field file");
     const auto options = std::make_shared<FromFileOptions>();
     command->add_option("FIELD", options->picture.input, "light field: deep OpenEXR or TLFR")
         ->required()
@@ -171,7 +170,7 @@ void addReconstruct(CLI::App& program) {
     addFocusOptions(*command, options->focus);
     addReconstructionOptions(*command, options->picture.common);
     addNumber<std::uint64_t>(*command, "--seed", options->seed, 0, std::numeric_limits<std::uint64_t>::max(),
-                             "of the output pattern (default: the field's)");
+                             "seed of the output pattern (default: the field's)");
     addCompareOption(*command, options->compareWithCpu);
     addRunOptions(*command, options->picture.common);
     command->callback([options] { runReconstruct(*options); });

@@ -6,7 +6,7 @@
 namespace slant::commands {
 namespace {
 
-/// Samples a pixel: on average, where pixels differ.
+/// Samples per pixel: the average where pixels differ.
 nlohmann::ordered_json sppOf(const LightField& field) {
     if (field.pixelStart.empty()) return field.samplesPerPixel;
     return float(sampleCounts(field).mean);
@@ -34,7 +34,7 @@ ReconstructOptions reconstructOptions(const CommonOptions& common, const PixelFi
     options.filter = filter;
     options.seed = common.seed;
     options.memoryBytes = common.memoryBytes;
-    // So that the CPU cuts a picture into the chunks that the device can hold.
+    // Makes the CPU cut a picture into chunks that the device can hold.
     constexpr std::uint64_t kBytesPerSample = 2 * sizeof(glm::vec4); // see maxDenseSamples
     if (options.memoryBytes / kBytesPerSample > backend.maxDenseSamples())
         options.memoryBytes = kBytesPerSample * backend.maxDenseSamples();

@@ -46,7 +46,7 @@ void runRender(RenderCommand options) {
 
 void addRender(CLI::App& program) {
     CLI::App* command =
-        program.add_subcommand("render", "Trace a few samples a pixel and reconstruct the picture");
+        program.add_subcommand("render", "Trace a few samples per pixel and reconstruct the picture");
     const auto options = std::make_shared<RenderCommand>();
     addPictureOptions(*command, options->picture);
     addReconstructionOptions(*command, options->picture.common);

@@ -63,7 +63,7 @@ void addSample(CLI::App& program) {
                      "(.bin, .txt, with a .header beside it)")
         ->required()
         ->type_name("FILE");
-    command->add_flag("--auxiliary", options->auxiliary, "with albedo and normal of every sample");
+    command->add_flag("--auxiliary", options->auxiliary, "store albedo and normal of every sample");
     addSamplingOptions(*command, options->common);
     addRunOptions(*command, options->common);
     command->callback([options] { runSample(*options); });

@@ -22,7 +22,7 @@ nlohmann::ordered_json statsJson(const std::vector<StageStats>& stages, double t
 
 void writeStats(const std::string& path, const std::vector<StageStats>& stages, double totalSeconds,
                 nlohmann::ordered_json details) {
-    // A device name or a path may hold bytes that are no UTF-8.
+    // A device name or a path may hold bytes that are not UTF-8.
     constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
     AtomicFile file(path);
     file.write(statsJson(stages, totalSeconds, std::move(details)).dump(2, ' ', false, kReplace) + "\n");

@@ -74,7 +74,7 @@ void TerminalMonitor::advance(std::uint64_t items) {
     if (interrupted()) throw Error(ErrorCode::interrupted, "interrupted");
     done_ += items;
     if (style_ == Style::quiet || watch_.seconds() < nextReport_) return;
-    // A thread that finds another one drawing has better things to do.
+    // A thread that finds another one drawing does not wait for it.
     const std::unique_lock lock(mutex_, std::try_to_lock);
     if (!lock || !running_ || watch_.seconds() < nextReport_) return;
     nextReport_ = watch_.seconds() + (style_ == Style::bar ? kBarInterval : kLineInterval);

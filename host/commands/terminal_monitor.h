@@ -10,8 +10,8 @@
 
 namespace slant::commands {
 
-/// `text` with line breaks and other control characters replaced by spaces: what a file says must neither
-/// break the one line of a message nor drive the terminal.
+/// `text` with line breaks and other control characters replaced by spaces: the content of a file must
+/// neither break the single line of a message nor control the terminal.
 std::string oneLine(std::string_view text);
 
 /// Writes to a stream that it does not own, and keeps what each finished stage cost.

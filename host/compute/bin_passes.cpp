@@ -74,7 +74,7 @@ DeviceBins BinPasses::run(CommandList& commands, const SceneSideSamples& source,
         std::uint64_t(grid.brickCount.x) * grid.brickCount.y * grid.bucketCount * cellsPerBrick;
     PairBuffers scratch(device_, samples.size());
     const RadixSort sort(device_, samples.size());
-    // One key more than there are cells: kNotBinned sorts behind them all.
+    // One key more than there are cells: kNotBinned sorts after them all.
     const bool inScratch =
         &sort.record(commands, placed.pairs, scratch, samples.size(), std::bit_width(keyCount)) == &scratch;
     PairBuffers& sorted = inScratch ? scratch : placed.pairs;

@@ -35,7 +35,7 @@ Buffer::Impl::Impl(Device::Impl& device_, TexelFormat format_, std::uint64_t tex
         using Property = vk::MemoryPropertyFlagBits;
         buffer = vk::raii::Buffer(device.device, vk::BufferCreateInfo({}, bytes, kUsage));
         const auto needs = buffer.getMemoryRequirements();
-        // Memory of a GPU that the host can see but not cache is slow to read: staging is better there.
+        // The host reads uncached GPU memory slowly, even where it is visible: staging is better there.
         std::optional<std::uint32_t> type;
         if (!device.forceStaging)
             type =

@@ -25,8 +25,9 @@ public:
     std::uint64_t texels() const;
     std::uint64_t bytes() const { return texels() * texelBytes(format()); }
 
-    /// Copies `values` (a vector, span, array of any trivially copyable type) to the texels from `firstTexel`
-    /// on, or these into `values`. Throws Error(usage) if that many bytes do not lie in the buffer.
+    /// Copies `values` (a vector, span or array of any trivially copyable type) to the texels from
+    /// `firstTexel` on, or these texels into `values`. Throws Error(usage) if the range is not inside the
+    /// buffer.
     template <std::ranges::contiguous_range Values>
     void upload(const Values& values, std::uint64_t firstTexel = 0) {
         uploadBytes(std::as_bytes(std::span(std::ranges::data(values), std::ranges::size(values))),

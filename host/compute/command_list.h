@@ -12,7 +12,7 @@
 
 namespace slant {
 
-/// Device time of all commands of one name.
+/// Device time of all commands with one name.
 struct PassTime {
     std::string name; ///< the shader's, or "fill"
     double seconds = 0;

@@ -138,7 +138,7 @@ std::vector<Candidate> candidates(const vk::raii::Instance& instance) {
         info.type = typeText(properties.deviceType);
         info.apiVersion = versionText(properties.apiVersion);
         info.unsuitable = whyUnsuitable(physical);
-        if (properties.apiVersion >= kApiVersion) { // what an older device cannot even be asked
+        if (properties.apiVersion >= kApiVersion) { // older devices cannot be queried for these
             const auto chain =
                 physical
                     .getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceVulkan12Properties>();
@@ -161,7 +161,7 @@ std::string lowerCase(std::string_view text) {
 /// The first candidate that `name` fits; throws Error(device) if there is none or it cannot be used.
 Candidate choose(std::vector<Candidate> all, std::string_view name) {
     if (name.empty())
-        throw Error(ErrorCode::usage, "empty device name: auto, cpu or part of a name is wanted");
+        throw Error(ErrorCode::usage, "empty device name: expected auto, cpu or part of a name");
     if (all.empty()) throw Error(ErrorCode::device, kNoDevice);
     std::string listing;
     for (Candidate& candidate : all) {

@@ -1,4 +1,4 @@
-// The Vulkan compute device: which there are, which one a run uses, and what it can do.
+// The Vulkan compute device: which devices there are, which one a run uses, and what it can do.
 //
 // Only host/compute includes Vulkan, and there only vulkan.h and the .cpp files: these headers do without.
 // A Device outlives every Buffer, Pass and CommandList made from it; all of them are for one thread at a
@@ -17,13 +17,13 @@ struct DeviceLimits {
     std::uint64_t storageBufferBytes = 0; ///< longest range of a storage buffer that a shader can see
     std::uint64_t texelBufferElements = 0;
     std::uint64_t allocationBytes = 0; ///< largest single allocation
-    std::uint64_t heapBytes = 0;       ///< all memory of the device's own
+    std::uint64_t heapBytes = 0;       ///< all memory that is local to the device
     std::uint32_t workgroupsX = 0, workgroupsY = 0, workgroupsZ = 0;
     std::uint32_t workgroupInvocations = 0;
     std::uint32_t pushConstantBytes = 0;
     std::uint32_t sharedMemoryBytes = 0;
     std::uint32_t subgroupSize = 0;
-    double timestampNanoseconds = 0; ///< one tick; 0 where the compute queue has no timestamps
+    double timestampNanoseconds = 0; ///< per tick; 0 where the compute queue has no timestamps
 };
 
 struct DeviceInfo {
@@ -32,7 +32,7 @@ struct DeviceInfo {
     std::string driver;
     std::string apiVersion;
     DeviceLimits limits;
-    std::string unsuitable; ///< why the program cannot use it; empty when it can
+    std::string unsuitable; ///< why the program cannot use it; empty if it can
 };
 
 /// Every Vulkan device, in the order of preference: usable ones first, then discrete, integrated, virtual,

@@ -7,7 +7,8 @@ namespace slant {
 
 namespace {
 
-/// What the samples of a pixel bring to those around it is kept for as many rows at a time, in texels.
+/// Texels for what the samples of a pixel contribute to the pixels around it; they limit the rows per
+/// dispatch.
 constexpr std::uint64_t kSpreadTexels = 1 << 21;
 
 std::array<std::uint32_t, 2> reachOf(const FilterTable& table) {

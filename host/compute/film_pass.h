@@ -11,7 +11,7 @@ public:
     /// An empty film.
     FilmPass(Device& device, const Rect& frame, FilterTable filter);
 
-    /// As FilmBuffer::accumulate. Runs on `commands`, which must be empty, and leaves it empty.
+    /// Like FilmBuffer::accumulate. Runs on `commands`, which must be empty, and leaves it empty.
     void accumulate(CommandList& commands, const Buffer& dense, const Band& band, int planes, int groupSize);
 
     /// See Engine::film.

@@ -7,14 +7,14 @@ namespace slant {
 
 struct DeviceLists {
     Buffer start;  ///< groups * tiles + 1
-    Buffer ids;    ///< of bricks, one an entry
+    Buffer ids;    ///< of bricks, one per entry
     Buffer bricks; ///< the bricks themselves
     Buffer cellBases;
 };
 
 class ListPasses {
 public:
-    /// Outputs of `pattern` look through `lens` unless it is empty; both must live on.
+    /// Outputs of `pattern` look through `lens` unless it is empty; both must outlive this.
     ListPasses(Device& device, const OutputPattern& pattern, const LensMap& lens);
 
     /// Lists of push.groupCount groups from push.firstGroup on; push needs grid, outputs and brickTotal.

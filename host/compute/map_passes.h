@@ -13,14 +13,14 @@ class MapPasses {
 public:
     MapPasses(Device& device, const OutputPattern& pattern);
 
-    /// Makes a map. `resolve` does, on the CPU, a texel of level 0 that has more samples than a
-    /// shader may loop over. Runs on `commands`, which must be empty, and leaves it empty.
+    /// Makes a map. `resolve` computes, on the CPU, a texel of level 0 that has more samples than a shader
+    /// may loop over. Runs on `commands`, which must be empty, and leaves it empty.
     void makeMap(CommandList& commands, const DeviceBins& bins, const MapLayout& layout,
                  const std::function<MapTexel(ivec2)>& resolve);
 
-    /// Records: takes from the map, into `dense`, what it can serve of the lists of a chunk; into `classes`,
-    /// of each list, its class (kInFocusBit), and into `missed` the pixels that it does not serve, 64 bits a
-    /// list. All must live until the commands ran.
+    /// Records: writes to `dense` the outputs of a chunk's lists that the map can serve, to `classes` the
+    /// class of each list (kInFocusBit), and to `missed` the pixels that the map does not serve, 64 bits per
+    /// list. All must live until the commands have run.
     void record(CommandList& commands, const ListPasses& listPasses, const DeviceLists& lists,
                 const Buffer& pattern, const OutputPush& push, const Buffer& classes, const Buffer& missed,
                 const Buffer& dense);

@@ -14,15 +14,15 @@ public:
     OutputPasses(Device& device, const OutputPattern& pattern, const LensMap& lens,
                  const SearchKernel& kernel);
 
-    /// What one chunk met; what overflowed is in no other count.
+    /// Counts of one chunk; an output that overflowed is in no other count.
     struct Result {
         SearchCounts counts;
         std::vector<uint> overflowed; ///< indices into dense that are still to be done, ascending
     };
 
-    /// Fills `dense` (planes of region pixels) for the lists of `work`, in these the pixels `missed`, 64 bits
-    /// a list, of sparse ones 2^push.takenBits outputs of a group; `lists` have a margin of 2 R. Runs on
-    /// `commands`, which must be empty, and leaves it empty.
+    /// Fills `dense` (planes of region pixels) for the lists of `work`: in each list the pixels `missed`, 64
+    /// bits per list; in sparse lists only 2^push.takenBits outputs of a group. `lists` have a margin of 2 R.
+    /// Runs on `commands`, which must be empty, and leaves it empty.
     Result run(CommandList& commands, ListPasses& listPasses, const DeviceBins& bins,
                const DeviceLists& lists, const ListWork& work, const Buffer& missed, OutputPush push,
                const Buffer& dense);

@@ -1,7 +1,7 @@
 // A compute pipeline made from an embedded shader.
 //
-// Shaders keep to one shape, which reflection checks: texel buffers at bindings 0, 1, ... of set 0
-// (textureBuffer to read, imageBuffer to write), and push constants that are one struct from shaders/shared.
+// Shaders have one form, which reflection checks: texel buffers at bindings 0, 1, ... of set 0 (textureBuffer
+// to read, imageBuffer to write), and push constants that are one struct from shaders/shared.
 #pragma once
 #include "compute/device.h"
 #include "compute/spirv.h"
@@ -29,11 +29,11 @@ public:
     std::string_view name() const;
     const ShaderInterface& interface() const;
 
-    /// Enough workgroups for one invocation an item. Over the limit of one dimension the grid takes a second:
-    /// the shader finds its item by linearInvocation() (resources/invocation.glsl) and skips those past the
-    /// end. Throws Error(resources) if even that is not enough.
+    /// Enough workgroups for one invocation per item. Beyond the limit of one dimension the grid takes a
+    /// second one: the shader finds its item by linearInvocation() (resources/invocation.glsl) and skips
+    /// those past the end. Throws Error(resources) if even that is not enough.
     Grid gridFor(std::uint64_t items) const;
-    /// Enough workgroups for one invocation a pixel; the shader skips those outside.
+    /// Enough workgroups for one invocation per pixel; the shader skips those outside.
     Grid gridOver(std::uint32_t width, std::uint32_t height) const;
 
     struct Impl;

@@ -1,9 +1,9 @@
 // Stable radix sort of (key, value) pairs on the device; radixSort (base/sort.h) does the same on the CPU.
 //
-// Without atomics, so that every run writes the same words: each invocation counts the digits of a chunk of
-// its own, a prefix sum over the counts, digit by digit, says where each chunk's pairs of each digit go, and
+// It needs no atomics, so that every run writes the same words: each invocation counts the digits of its own
+// chunk, a prefix sum over the counts, digit by digit, says where each chunk's pairs of each digit go, and
 // each invocation moves its chunk there in order. (Satish, Harris, Garland: Designing Efficient Sorting
-// Algorithms for Manycore GPUs, 2009, has the scheme with a chunk a workgroup.)
+// Algorithms for Manycore GPUs, 2009, has the scheme with one chunk per workgroup.)
 #pragma once
 #include "compute/scan.h"
 
@@ -24,9 +24,9 @@ public:
     void reserve(std::uint64_t maxCount);
 
     /// Records the sorting of the first `count` pairs by the lowest `keyBits` (0 to 32) bits of their keys,
-    /// pairs of equal bits in the order in which they were. Works to and fro between the two, and returns
-    /// that which holds the result; the other holds nothing of use. Throws Error(usage) for counts over
-    /// `maxCount` or a buffer's size.
+    /// pairs of equal bits in the order in which they were. Works back and forth between the two buffers and
+    /// returns the one that holds the result; the other holds nothing of use. Throws Error(usage) for counts
+    /// over `maxCount` or a buffer's size.
     const PairBuffers& record(CommandList& commands, const PairBuffers& pairs, const PairBuffers& scratch,
                               std::uint64_t count, int keyBits) const;
 

@@ -14,7 +14,7 @@ Error unsupported(const ShaderModule& module, std::string_view what) {
     return Error(ErrorCode::usage, fmt::format("shader '{}': {}", module.name, what));
 }
 
-/// Everything of a module that its interface follows from, by id.
+/// The parts of a module that determine its interface, by id.
 struct ModuleTables {
     explicit ModuleTables(const ShaderModule& module) {
         for (const SpirvInstruction& i : instructions(module)) {

@@ -8,7 +8,8 @@ namespace slant {
 vk::DebugUtilsMessengerCreateInfoEXT ValidationLog::messengerInfo() {
     using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
     using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
-    // Type eGeneral stays out: the loader uses it to grumble about drivers that have nothing to do with us.
+    // Messages of type eGeneral stay out: the loader uses it to complain about drivers that are not used
+    // here.
     return vk::DebugUtilsMessengerCreateInfoEXT({}, Severity::eWarning | Severity::eError,
                                                 Type::eValidation | Type::ePerformance, &receive, this);
 }

@@ -1,5 +1,5 @@
-// What the rooms behind compute's public headers share: Vulkan itself, the device's insides, and the turning
-// of Vulkan failures into Error.
+// What the sources behind compute's public headers share: Vulkan itself, the internals of the device, and the
+// conversion of Vulkan failures into Error.
 #pragma once
 #include "base/error.h"
 #include "compute/buffer.h"
@@ -38,7 +38,7 @@ constexpr vk::Format vulkanFormat(TexelFormat format) {
     return formats[int(format)];
 }
 
-/// Host-visible memory through which buffers of a device with memory of its own are written and read.
+/// Host-visible memory for writing and reading buffers in device-local memory.
 struct StagingBuffer {
     static constexpr std::uint64_t kBytes = 16 << 20;
     vk::raii::DeviceMemory memory;
@@ -57,7 +57,7 @@ struct Device::Impl {
     /// Waits for a fence; throws Error(device) when the device is lost.
     void wait(const vk::raii::Fence& fence, std::string_view doing) const;
 
-    // Destroyed in reverse order: what depends on something stands after it.
+    // Destroyed in reverse order: members come after what they depend on.
     ValidationLog validation;
     bool validate;
     bool forceStaging;

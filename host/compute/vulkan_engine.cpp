@@ -84,13 +84,13 @@ void VulkanEngine::makeLists(const Chunk& chunk) {
     lists_.emplace(picture_->lists.run(commands_, bins, pushOf(chunk), 2 * bins.grid.radiusPx));
     missed_ = Buffer(device_, TexelFormat::r32ui, 2 * (lists_->start.texels() - 1));
     reserveDense(chunk.outputs());
-    commands_.fill(missed_, ~0u); // unless a map serves some
+    commands_.fill(missed_, ~0u); // unless a map serves some of them
 }
 
 ListClasses VulkanEngine::lookUpMap(const Chunk& chunk, Monitor&) {
     ListClasses classes(lists_->start.texels() - 1);
     classes_ = Buffer(device_, TexelFormat::r32ui, classes.codes.size());
-    if (setup_.observed) commands_.fill(dense_, 0); // planes that nobody reads
+    if (setup_.observed) commands_.fill(dense_, 0); // planes that nothing reads
     picture_->map.record(commands_, picture_->lists, *lists_, picture_->outputs.pattern(), pushOf(chunk),
                          classes_, missed_, dense_);
     commands_.run();

@@ -36,7 +36,7 @@ public:
     void addPassTimes(ReconstructReport& report) override;
 
 private:
-    /// What is made anew for each picture that searches the bins.
+    /// State made anew for each picture that searches the bins.
     struct BinPicture {
         ListPasses lists;
         OutputPasses outputs;
@@ -46,7 +46,7 @@ private:
     const LensMap& lensMap() const { return samples_.field().lensMap; }
     OutputPush pushOf(const Chunk& chunk) const;
     void reserveDense(std::uint64_t texels);
-    /// The CPU at the same point of the same picture, for what a shader may not loop over.
+    /// The CPU engine at the same point of the same picture, for loops too long for a shader.
     CpuEngine& cpu();
     void takeFromCpu(const std::vector<vec4>& dense, std::span<const uint> indices);
 

@@ -14,13 +14,13 @@ public:
     WindowPass(Device& device, const WindowSamples& samples, const WindowSearch& search, const LensMap& lens,
                const OutputPattern& pattern);
 
-    /// What one chunk met; what overflowed is in no other count.
+    /// Counts of one chunk; an output that overflowed is in no other count.
     struct Result {
         SearchCounts counts;
         std::vector<uint> overflowed; ///< indices into dense that are still to be done, ascending
     };
-    /// Fills `dense`. `stepsPerOutput` are those of a whole window: too many for a shader leave all outputs
-    /// to the CPU. Runs on `commands`, which must be empty, and leaves it empty.
+    /// Fills `dense`. `stepsPerOutput` counts the steps of a whole window: if they are too many for a shader,
+    /// all outputs are left to the CPU. Runs on `commands`, which must be empty, and leaves it empty.
     Result run(CommandList& commands, const Chunk& chunk, std::uint64_t stepsPerOutput, const Buffer& dense);
 
     const Buffer& positions() const { return positions_; }

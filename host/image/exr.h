@@ -1,4 +1,4 @@
-// OpenEXR scanline files of any named channels.
+// OpenEXR scanline files with any named channels.
 #pragma once
 #include "image/image.h"
 
@@ -25,7 +25,7 @@ struct ExrFile {
 void writeExr(const std::string& path, const Image& image, const Metadata& metadata = {},
               ExrPrecision precision = ExrPrecision::half);
 
-/// Channels of type half, float and uint, all as float. Throws Error(badInput) for whatever is no intact
+/// Channels of type half, float and uint, all as float. Throws Error(badInput) for anything but an intact
 /// single-part scanline file, for subsampled channels, and for more than 2^27 pixels or 2^29 values.
 ExrFile readExr(const std::string& path);
 

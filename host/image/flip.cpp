@@ -14,7 +14,7 @@ namespace slant {
 namespace {
 
 using glm::dvec3;
-using Plane = std::vector<float>; ///< one value a pixel, row-major
+using Plane = std::vector<float>; ///< one value per pixel, row-major
 using Planes = std::array<Plane, 3>;
 using Kernel = std::vector<double>; ///< taps from -radius to radius
 
@@ -150,7 +150,7 @@ Plane seen(const Plane& plane, int width, int height, const std::array<Sensitivi
 
 // ---------------------------------------------------------------- the two views and their difference
 
-/// What flips on the screen: a picture as far as its viewer tells colours, edges and points.
+/// One of the two flipping pictures, as its viewer sees colours, edges and points.
 struct View {
     std::vector<dvec3> colors; ///< Hunt-adjusted L*a*b* behind the spatial filters
     Plane edges, points;       ///< magnitudes of the features

@@ -7,7 +7,7 @@
 
 namespace slant {
 
-/// Pixels of a degree of the visual field on the paper's screen: 3840 pixels on 0.7 m, seen from 0.7 m.
+/// Pixels per degree of the visual field on the paper's screen: 3840 pixels on 0.7 m, seen from 0.7 m.
 inline constexpr double kFlipPixelsPerDegree = 3840 / 0.7 * 0.7 * 3.14159265358979323846 / 180;
 
 struct FlipOptions {

@@ -34,7 +34,7 @@ Bitmap heatMap(const Image& image, const Image& reference, double scale) {
         double largest = 0;
         for (std::size_t c = i; c < i + channels; ++c) {
             const double error = std::abs(double(image.pixels[c]) - reference.pixels[c]);
-            // An infinite error beats all others, and no comparison can lose it as it would a NaN.
+            // An infinite error beats all others; a NaN could get lost in comparisons.
             largest = std::max(largest, std::isfinite(error) ? error : HUGE_VAL);
         }
         const Color color = std::isfinite(largest) ? magma(std::min(largest / scale, 1.0)) : kNonFinite;

@@ -29,7 +29,7 @@ public:
     float& at(int x, int y, int c) { return pixels[index(x, y, c)]; }
     float at(int x, int y, int c) const { return pixels[index(x, y, c)]; }
 
-    /// The channels of these names, all of which there must be.
+    /// The channels of these names, all of which must exist.
     Image withChannels(std::vector<std::string> names) const;
 
     Rect dataWindow;

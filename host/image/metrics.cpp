@@ -19,7 +19,7 @@ ValuePlace placeOf(const Image& image, std::size_t index) {
             int(index % channels)};
 }
 
-/// Whether there was anything to count.
+/// Whether anything was counted.
 bool countNonFinite(const Image& image, const Image& reference, Metrics& metrics) {
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
         const float a = image.pixels[i], b = reference.pixels[i];

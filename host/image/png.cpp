@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kMaxPixels = std::size_t(1) << 27;
 constexpr int kMaxSide = 1 << 24;
-/// Deflate packs at most 1032 bytes into one (a match of 258 bytes in two bits), and a pixel has at least a
+/// Deflate packs at most 1032 bytes into one (a match of 258 bytes in two bits), and a pixel has at least one
 /// bit.
 constexpr std::size_t kMaxPixelsPerByte = 1032 * 8;
 

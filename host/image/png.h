@@ -8,14 +8,14 @@
 
 namespace slant {
 
-/// sRGB-encoded pixels, row-major; 1 (grey) or 3 (R, G, B) bytes a pixel.
+/// sRGB-encoded pixels, row-major; 1 (grey) or 3 (R, G, B) bytes per pixel.
 struct Bitmap {
     int width = 0, height = 0, channels = 3;
     std::vector<std::uint8_t> bytes;
 };
 
-/// The picture that a screen shows of R, G, B (of the first channel as grey, where they are not all there)
-/// times 2^exposureStops, clipped to [0, 1]; NaN becomes black.
+/// What a screen shows of R, G, B (or of the first channel as grey, if one of them is missing) times
+/// 2^exposureStops, clipped to [0, 1]; NaN becomes black.
 Bitmap toSrgb8(const Image& image, float exposureStops = 0);
 
 /// Throws Error(resources) if the file cannot be written.

@@ -26,7 +26,8 @@ namespace slant {
 namespace {
 
 constexpr int kVersion = 1;
-/// The least that a sample takes before compression: the required channels, three of them as halves at most.
+/// The fewest bytes that a sample takes before compression: the required channels, three of them as halves at
+/// most.
 constexpr std::uint64_t kMinSampleBytes = 22;
 
 struct SlopeConstant {
@@ -42,7 +43,7 @@ Imath::Box2i toBox(const Rect& r) {
     return {{r.x0, r.y0}, {r.x1 - 1, r.y1 - 1}};
 }
 
-/// Clamped to what any extent may be, and some more.
+/// Clamped to slightly more than any valid extent.
 Rect toRect(const Imath::Box2i& b) {
     constexpr int kLimit = 1 << 29;
     const auto clamped = [=](int v) { return std::clamp(v, -kLimit, kLimit); };
@@ -100,7 +101,7 @@ Imf::Header readHeader(const InputFile& file) {
     FileStream stream(file);
     bool tiled = false, deep = false, multiPart = false;
     if (!Imf::isOpenExrFile(stream, tiled, deep, multiPart) || !deep || tiled || multiPart)
-        throw badInput({file.path()}, "is no light field: it is {}",
+        throw badInput({file.path()}, "is not a light field: it is {}",
                        multiPart ? "a multi-part OpenEXR file" : "an OpenEXR file without deep scanlines");
     checkAttributes(file);
     stream.seekg(kVersionPlace);
@@ -109,7 +110,7 @@ Imf::Header readHeader(const InputFile& file) {
     header.readFrom(stream, version);
     header.sanityCheck();
     if (!header.hasType() || header.type() != Imf::DEEPSCANLINE)
-        throw badInput({file.path()}, "is no light field: its type is not '{}'", Imf::DEEPSCANLINE);
+        throw badInput({file.path()}, "is not a light field: its type is not '{}'", Imf::DEEPSCANLINE);
     const Imath::Box2i& window = header.dataWindow();
     requireBytes(file, std::uint64_t(window.max.y) - std::uint64_t(window.min.y), 0);
     checkScanlines(file, stream.tellg(), window.max.y - window.min.y + 1);
@@ -153,7 +154,7 @@ bool hasChannel(const FileLocation& where, const Imf::Header& header, const Deep
     return true;
 }
 
-/// Those that the file has. Throws where one is missing that it needs.
+/// The channels that the file has. Throws if a required one is missing.
 template <std::size_t count>
 std::vector<DeepChannel> present(const FileLocation& where, const Imf::Header& header,
                                  const std::array<DeepChannel, count>& channels) {

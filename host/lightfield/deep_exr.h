@@ -1,12 +1,12 @@
 // Light fields as deep OpenEXR scanline files, Slant's own form: one deep sample is one sample of the field.
-// README, "Light field files", lists channels and attributes.
+// host/lightfield/README.md lists channels and attributes.
 #pragma once
 #include "lightfield/field_file.h"
 
 namespace slant {
 
-/// Throws Error(badInput) for what is no intact file of that kind, or lacks a channel or constant that a
-/// light field needs, or whose pixels differ in their number of samples.
+/// Throws Error(badInput) for anything but an intact file of that kind, and for one that lacks a channel or
+/// constant that a light field needs.
 FieldFile readDeepExr(const std::string& path, Monitor& monitor);
 
 /// Uncompressed, 32-bit floats; reading gives the same bits again, albedo and normals included.

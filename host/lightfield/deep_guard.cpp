@@ -11,8 +11,7 @@ struct FixedSize {
     std::string_view type;
     int bytes;
 };
-/// OpenEXR reads these without a look at the size that the file gives, and would take what follows for
-/// something else.
+/// OpenEXR reads these without checking the size that the file gives, and would misread what follows.
 constexpr std::array<FixedSize, 24> kFixedSizes = {{
     {"box2f", 16},
     {"box2i", 16},
@@ -54,14 +53,14 @@ void skipChannels(FileStream& stream) {
     while (!readName(stream).empty()) stream.seekg(stream.tellg() + kChannelBytes);
 }
 
-/// Width, height, and 4 bytes a pixel.
+/// Width, height, and 4 bytes per pixel.
 void skipPreview(FileStream& stream) {
     const std::uint64_t width = readNumber<std::uint32_t>(stream), height = readNumber<std::uint32_t>(stream);
     if (width > 0xffff || height > 0xffff) throw Iex::InputExc("a preview is too large");
     stream.seekg(stream.tellg() + 4 * width * height);
 }
 
-/// Each a length and so many bytes.
+/// Each a length and that many bytes.
 void skipStrings(FileStream& stream, std::uint64_t end) {
     while (stream.tellg() < end) {
         const auto length = readNumber<std::uint32_t>(stream);
@@ -102,7 +101,7 @@ void checkAttributes(const InputFile& file) {
             throw Iex::InputExc("an attribute is longer than the file");
         const std::uint64_t end = begin + std::uint64_t(size);
         skipValue(stream, type, std::uint64_t(size));
-        if (stream.tellg() != end) throw Iex::InputExc("an attribute has not the size of its type");
+        if (stream.tellg() != end) throw Iex::InputExc("an attribute does not have the size of its type");
     }
 }
 

@@ -1,4 +1,4 @@
-// What an OpenEXR file claims of its sizes, held against what it has: OpenEXR allocates first and reads then.
+// Checks the sizes that an OpenEXR file claims against those it has: OpenEXR allocates before it reads.
 #pragma once
 #include "base/input_file.h"
 
@@ -10,7 +10,7 @@
 
 namespace slant {
 
-/// Bytes that a compressed one can stand for (deflate), with room for the rest of the file.
+/// Bytes that one compressed byte can stand for (deflate), with room for the rest of the file.
 inline constexpr std::uint64_t kLargestRatio = 1100;
 /// Of the version field, behind the magic number; the header follows it.
 inline constexpr std::uint64_t kVersionPlace = 4;

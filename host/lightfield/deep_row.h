@@ -1,4 +1,4 @@
-// One scanline at a time of a deep file, straight from and into interleaved samples.
+// One scanline of a deep file at a time, straight from and into interleaved samples.
 #pragma once
 #include "base/error.h"
 #include "lightfield/deep_channels.h"
@@ -19,8 +19,8 @@ public:
     DeepRow(const DeepRow&) = delete;
     DeepRow& operator=(const DeepRow&) = delete;
 
-    /// Channels of samples, `stride` bytes apart, of which those of the field begin at `samples`; or, if they
-    /// are not kept, those of every row.
+    /// Channels of samples, `stride` bytes apart. The field's samples begin at `samples`; if samples are not
+    /// kept, those of every row do.
     void add(std::span<const DeepChannel> channels, void* samples, std::size_t stride, bool kept = true);
     void moveTo(int y);
     /// Throws Error(badInput) where the counts that were read last for this row are not those of the field:

@@ -74,7 +74,8 @@ FieldFile readField(const std::string& path, Monitor& monitor) {
         return file;
     }
     if (std::filesystem::exists(body + header, ignored)) return readTlfr(body, body + header, monitor);
-    throw badInput({path}, "is no light field: neither OpenEXR nor TLFR, as there is no {}{}", body, header);
+    throw badInput({path}, "is not a light field: neither OpenEXR nor TLFR, as there is no {}{}", body,
+                   header);
 }
 
 void writeField(const std::string& path, const LightField& field, const FieldMetadata& details,
@@ -89,13 +90,13 @@ void writeField(const std::string& path, const LightField& field, const FieldMet
 void checkExtent(const FileLocation& location, const LightField& field, const FieldMetadata& details) {
     for (const auto& [name, rect] : {std::pair("samples", field.bounds), {"film", details.film}})
         if (rect.empty() || !withinLimits(rect))
-            throw badInput(location, "the {} span {} pixels, which is not something within +-{}", name,
-                           textOf(rect), kMaxCoordinate);
+            throw badInput(location, "the {} span {} pixels: empty or not within +-{}", name, textOf(rect),
+                           kMaxCoordinate);
     if (field.frame.empty() || field.frame.intersect(field.bounds) != field.frame)
         throw badInput(location, "the frame {} is not part of the pixels with samples, {}",
                        textOf(field.frame), textOf(field.bounds));
     if (field.samplesPerPixel < 1 || field.samplesPerPixel > kMaxSamplesPerPixel)
-        throw badInput(location, "{} samples a pixel are not 1 to {}", field.samplesPerPixel,
+        throw badInput(location, "{} samples per pixel are not 1 to {}", field.samplesPerPixel,
                        kMaxSamplesPerPixel);
     checkTotal(location, std::uint64_t(field.bounds.area()) * std::uint64_t(field.samplesPerPixel));
     const SlopeModel& slope = field.slopeModel;
@@ -127,7 +128,7 @@ LensMap lensMapOf(const FileLocation& location, std::span<const float> numbers) 
     std::vector<vec4> texels(numbers.size() / 4);
     for (std::size_t i = 0; i < 4 * texels.size(); ++i) texels[i / 4][int(i % 4)] = numbers[i];
     if (numbers.size() % 4 != 0)
-        throw badInput(location, "lensMap has {} numbers, which are no fours", numbers.size());
+        throw badInput(location, "lensMap has {} numbers, which is not a multiple of 4", numbers.size());
     if (const char* fault = faultOf(texels)) throw badInput(location, "lensMap {}", fault);
     return LensMap(std::move(texels));
 }

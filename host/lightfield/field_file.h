@@ -1,5 +1,5 @@
 // Light fields as files: our native form, deep OpenEXR (deep_exr.h), and the form of Lehtinen et al. 2011
-// (tlfr.h). README, "Light field files", describes both for those who write them.
+// (tlfr.h). host/lightfield/README.md describes both for those who write them.
 #pragma once
 #include "base/monitor.h"
 #include "lightfield/field_metadata.h"
@@ -16,17 +16,17 @@ struct FieldFile {
     FieldFormat format = FieldFormat::deepExr;
     LightField field; ///< as it stands in the file: not sanitized
     FieldMetadata details;
-    std::uint64_t movingSamples = 0; ///< with a motion that is not zero, which is not kept
+    std::uint64_t movingSamples = 0; ///< samples with non-zero motion, which is not kept
 };
 
-/// What a person calls it.
+/// Its name in messages.
 std::string_view nameOf(FieldFormat format);
 
 /// The format by the name's extension: .exr, .bin, .txt. Throws Error(usage) for any other.
 FieldFormat formatForName(const std::string& path);
 
-/// Reads a file of any of the formats, told apart by their content; of TLFR's two files either may be named.
-/// Advances the monitor by samples. Throws Error(badInput) for what is no intact light field.
+/// Reads a file of any of the formats, recognized by content; either of TLFR's two files may be named.
+/// Advances the monitor by samples. Throws Error(badInput) for anything but an intact light field.
 FieldFile readField(const std::string& path, Monitor& monitor);
 
 /// In the format of the name's extension. Advances the monitor by samples. Throws Error(resources) if it
@@ -34,12 +34,12 @@ FieldFile readField(const std::string& path, Monitor& monitor);
 void writeField(const std::string& path, const LightField& field, const FieldMetadata& details,
                 Monitor& monitor);
 
-/// The extent of a field before its samples are there. Throws Error(badInput) unless sizes are within the
-/// limits, the frame lies within the bounds, and c1 <= 0 (nearer is smaller) and c2 are finite. Of samples a
-/// pixel it knows only one number for all.
+/// The extent of a field before its samples are read. Throws Error(badInput) unless sizes are within the
+/// limits, the frame lies within the bounds, and c1 <= 0 (nearer is smaller) and c2 are finite. It takes one
+/// number of samples per pixel for all.
 void checkExtent(const FileLocation& location, const LightField& field, const FieldMetadata& details);
 
-/// As setSampleCounts. Throws Error(badInput) where there are too many, or none at all.
+/// Like setSampleCounts, but throws Error(badInput) if there are too many samples, or none at all.
 void takeSampleCounts(const FileLocation& location, LightField& field, std::span<const std::uint32_t> counts);
 
 /// Lens maps in files: their texels, one after another (shaders/shared/lens_map.h). Throws Error(badInput)

@@ -58,7 +58,7 @@ float parseLength(const FileLocation& location, std::string_view name, const std
 
 Aperture readShape(const FileLocation& location, const std::string& text) {
     const std::optional<ApertureShape> shape = parseAperture(text, location);
-    if (!shape) throw badInput(location, "aperture '{}' is no shape that is known", printable(text));
+    if (!shape) throw badInput(location, "aperture '{}' is not a known shape", printable(text));
     return Aperture(*shape);
 }
 

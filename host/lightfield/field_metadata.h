@@ -1,4 +1,4 @@
-// What a light field's file says beside its samples, and how both formats spell it.
+// What a light field file holds besides its samples, and how both formats spell it.
 //
 // Names and values are the same in both: attributes "slant:NAME" of an OpenEXR header, lines "slant:NAME
 // VALUE" at the end of a TLFR header.
@@ -25,11 +25,11 @@ struct FieldMetadata {
     std::uint64_t seed = 0;            ///< of the pattern
 };
 
-/// Everything but the film, without what is not known, and the field's aperture unless it is a disc: strings,
-/// and floats for lengths.
+/// Everything that is known except the film, and the field's aperture unless it is a disc: strings, and
+/// floats for lengths.
 Metadata metadataOf(const LightField& field, const FieldMetadata& details);
 
-/// Takes in one of them, without its "slant:"; false if it has another name. Throws Error(badInput) for a
+/// Takes one of them, named without "slant:"; false if the name is unknown. Throws Error(badInput) for a
 /// value out of range.
 bool setMetadata(LightField& field, FieldMetadata& details, const FileLocation& location,
                  std::string_view name, const std::string& value);

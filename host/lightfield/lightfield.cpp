@@ -16,7 +16,7 @@ namespace {
 /// Largest |(u, v)|: rounding may put a sample of the rim a little outside.
 constexpr float kLensRadiusBound = 1.0001f;
 
-/// Clears what is not finite or negative in one component; tells which.
+/// Clears a component that is not finite or negative; returns which it was.
 void repairComponent(float& value, bool& nonFinite, bool& negative) {
     if (!std::isfinite(value)) {
         nonFinite = true;

@@ -24,8 +24,8 @@ namespace slant {
 /// - slope: pixels per lens radius, for a thin lens C1/w + C2 with C1 < 0: the nearer, the smaller.
 /// - alpha: 1 where something was hit, else 0.
 ///
-/// Through a compound lens x, y and u, v are on the film's side (camera/lens_map.h), and points move so on
-/// the scene's.
+/// Through a compound lens x, y and u, v are on the film's side (camera/lens_map.h), but points move like
+/// this on the scene's side.
 struct LightFieldSample {
     float x, y, u, v;
     float t, w, slope, alpha;
@@ -56,11 +56,11 @@ SampleSpans spansOf(SampleSet& set);
 struct LightField : SampleSet {
     Rect bounds;             ///< pixels with samples: the frame and its overscan
     Rect frame;              ///< pixels of the picture to reconstruct
-    int samplesPerPixel = 0; ///< of every pixel; 0 where they differ in it
+    int samplesPerPixel = 0; ///< of every pixel; 0 if pixels differ
     SlopeModel slopeModel;
     Aperture aperture;                     ///< over which lens positions are spread
-    LensMap lensMap;                       ///< empty: a thin lens; else all pixels have as many samples
-    std::vector<std::uint32_t> pixelStart; ///< where pixels differ: firstSample of each, and of one more
+    LensMap lensMap;                       ///< empty: a thin lens; else all pixels have equally many samples
+    std::vector<std::uint32_t> pixelStart; ///< if pixels differ: firstSample of each, and of one more
 
     std::size_t firstSample(std::size_t pixel) const {
         return pixelStart.empty() ? pixel * std::size_t(samplesPerPixel) : pixelStart[pixel];
@@ -68,23 +68,24 @@ struct LightField : SampleSet {
     std::size_t samplesOf(std::size_t pixel) const { return firstSample(pixel + 1) - firstSample(pixel); }
 };
 
-/// How many samples the pixels have.
+/// Samples per pixel: least, most, mean.
 struct SampleCounts {
     std::size_t min = 0, max = 0;
     double mean = 0;
 };
 SampleCounts sampleCounts(const LightField& field);
 
-/// Gives every pixel of `bounds`, row by row, as many samples; the samples themselves are still to come.
+/// Sets the number of samples of every pixel of `bounds`, row by row; the samples themselves are filled in
+/// later.
 void setSampleCounts(LightField& field, std::span<const std::uint32_t> counts);
 
-/// Whether any sample's slope is not that of its depth.
+/// Whether any sample's slope differs from the slope of its depth.
 bool hasOwnSlopes(const LightField& field);
 
 /// Whether slopes are C1/w + C2 throughout, and no lens map stands between them and the samples.
 bool isThinLens(const LightField& field);
 
-/// What `sanitize` met; each count is of samples.
+/// What `sanitize` found; each count is of samples.
 struct FieldDefects {
     std::uint64_t nonFiniteRadiance = 0; ///< set to 0
     std::uint64_t negativeRadiance = 0;  ///< components below zero set to 0

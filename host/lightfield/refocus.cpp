@@ -45,7 +45,7 @@ int missingOverscanPx(const LightField& field, const LensView& view) {
                 const float radius = std::abs(s.slope + view.slopeShift) * view.apertureScale;
                 const vec2 p = pinholeOf(vec2(s.x, s.y), vec2(s.u, s.v), s.slope);
                 if (!std::isfinite(radius) || !std::isfinite(p.x + p.y)) continue;
-                // A point of the frame that is spread so far has neighbours spread as far.
+                // The neighbours of a point in the frame that is spread this far are spread as far.
                 if (p.x < float(frame.x0) || p.x > float(frame.x1)) continue;
                 if (p.y < float(frame.y0) || p.y > float(frame.y1)) continue;
                 here = std::max({here, float(bounds.x0) - (p.x - radius), float(bounds.y0) - (p.y - radius),

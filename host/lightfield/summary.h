@@ -1,4 +1,4 @@
-// What a light field holds, in figures.
+// Statistics of a light field.
 #pragma once
 #include "lightfield/lightfield.h"
 

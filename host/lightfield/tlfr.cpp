@@ -11,7 +11,7 @@
 namespace slant {
 namespace {
 
-/// Lens maps are the longest that there is in them.
+/// Lens maps are the longest lines in a header.
 constexpr std::uint64_t kMaxHeaderBytes = 1 << 25;
 
 std::string_view trimmed(std::string_view text) {
@@ -58,7 +58,7 @@ private:
         }
         std::string columns(text);
         std::erase(columns, ' ');
-        if (columns != kTlfrColumns) throw badInput(where_, "'{}' is no line of a TLFR 1.3 header", text);
+        if (columns != kTlfrColumns) throw badInput(where_, "'{}' is not a line of a TLFR 1.3 header", text);
         columnsSeen_ = true;
     }
 
@@ -105,11 +105,11 @@ private:
         return whole;
     }
 
-    /// A line after the columns: ours, or one that the format knows nothing of.
+    /// A line after the columns: one of ours, or one that the format does not know.
     void extension(std::string_view text) {
         constexpr std::string_view kPrefix = "slant:";
         if (!text.starts_with(kPrefix)) {
-            monitor_.warn(fmt::format("{}: the line '{}' is not known and not used", where_.text(), text));
+            monitor_.warn(fmt::format("{}: the line '{}' is unknown and ignored", where_.text(), text));
             return;
         }
         text.remove_prefix(kPrefix.size());
@@ -125,7 +125,7 @@ private:
         } else if (name == "lensMap") {
             file_.field.lensMap = lensMapOf(where_, floats(value));
         } else if (!setMetadata(file_.field, file_.details, where_, name, value)) {
-            throw badInput(where_, "'slant:{}' is not known", name);
+            throw badInput(where_, "'slant:{}' is unknown", name);
         }
     }
 
@@ -136,7 +136,7 @@ private:
             float number = 0;
             const auto [end, error] = std::from_chars(place, last, number);
             if (error != std::errc() || (end != last && *end != ' '))
-                throw badInput(where_, "the {}th of its numbers is none", numbers.size() + 1);
+                throw badInput(where_, "its {}th value is not a number", numbers.size() + 1);
             numbers.push_back(number);
             place = end == last ? end : end + 1;
         }
@@ -150,7 +150,7 @@ private:
 
     void finish() {
         Rect& bounds = file_.field.bounds;
-        // Coordinates as large as checkExtent allows, and some more, but none that overflows.
+        // Allows coordinates slightly beyond those of checkExtent, but none that overflows.
         constexpr int kLimit = 1 << 29;
         bounds = {std::clamp(origin_.x, -kLimit, kLimit), std::clamp(origin_.y, -kLimit, kLimit),
                   std::clamp(origin_.x, -kLimit, kLimit) + std::min(bounds.x1, kLimit),
@@ -182,7 +182,7 @@ std::string rectText(const Rect& r) {
     return fmt::format("{} {} {} {}", r.x0, r.x1, r.y0, r.y1);
 }
 
-/// A line of its own, whatever the text holds.
+/// One line, whatever the text holds.
 std::string oneLine(std::string text) {
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text + '\n';

@@ -43,7 +43,7 @@ bool moves(const Record& r) {
     return r[11] != 0 || r[12] != 0 || r[13] != 0;
 }
 
-/// Lines of a text, and where they and their samples come in the whole.
+/// Lines of a text, and the place of them and their samples in the whole.
 struct Piece {
     std::string_view text;
     std::uint64_t firstLine = 0, firstSample = 0;
@@ -63,7 +63,7 @@ void forEachLine(std::string_view text, const Visit& visit) {
     }
 }
 
-/// Cut behind line ends.
+/// Cut after line ends.
 std::vector<Piece> cut(std::string_view text, std::size_t size) {
     std::vector<Piece> pieces;
     while (!text.empty()) {
@@ -184,7 +184,7 @@ std::uint64_t readTlfrText(const InputFile& body, LightField& field, Monitor& mo
         std::string_view lines = text;
         if (offset + text.size() < body.size()) lines = lines.substr(0, lines.rfind('\n') + 1);
         if (lines.empty())
-            throw badInput({body.path(), int(next.firstLine) + 1, 0}, "this line is no sample");
+            throw badInput({body.path(), int(next.firstLine) + 1, 0}, "this line is not a sample");
         std::vector<Piece> pieces = cut(lines, kTextAtATime / 64);
         const std::uint64_t before = next.firstSample;
         next = placePieces(pieces, next);

@@ -1,4 +1,4 @@
-// The body of a TLFR file: sixteen numbers a sample, as float32 or as lines of text.
+// The body of a TLFR file: sixteen numbers per sample, as float32 or as lines of text.
 #pragma once
 #include "base/atomic_file.h"
 #include "base/input_file.h"

@@ -1,4 +1,4 @@
-// Values of the samples that a picture can be made of.
+// Values of samples that a picture can show.
 #pragma once
 #include "lightfield/lightfield.h"
 

@@ -10,7 +10,7 @@ namespace slant {
 struct BinFetches {
     const SearchContext& context;
 
-    /// There is no limit.
+    /// The CPU has no limit.
     static constexpr int kMaxSteps = std::numeric_limits<int>::max();
 
     const vec4& positionAt(uint record) const { return context.bins.positions[record]; }

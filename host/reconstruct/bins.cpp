@@ -10,7 +10,7 @@
 namespace slant {
 namespace {
 
-/// Binned samples by key, and those of one key by index.
+/// Binned samples sorted by key, those of equal keys by index.
 struct Order {
     std::vector<uint> keys, samples;
 };
@@ -32,7 +32,7 @@ Order sortedSamples(std::span<const LightFieldSample> samples, const Rect& regio
     return order;
 }
 
-/// Bounds of a brick while its samples come in.
+/// Bounds of a brick while its samples are gathered.
 struct BrickBounds {
     uint key = kNotBinned; ///< of the brick
     ivec2 first{255}, last{0};

@@ -95,8 +95,8 @@ ListClasses ChunkOutputs::lookUpMap(const LayerMap& map, Monitor& monitor) {
     return classes;
 }
 
-/// The pixels of which an output meets nothing, a bit each. Which they are must not depend on bands, so
-/// positions outside the region are looked at too.
+/// The pixels with an output that meets nothing, one bit each. They must not depend on bands, so positions
+/// outside the region are tested too.
 std::uint64_t ChunkOutputs::takeList(const LayerMap& map, std::size_t group, ivec2 corner,
                                      const ListClass& listClass) {
     std::uint64_t missed = 0;
@@ -193,7 +193,7 @@ SearchCounts ChunkOutputs::redo(std::span<const uint> indices) {
     return widen(counts);
 }
 
-/// Outputs that found nothing within 2 R look further, with lists made for it.
+/// Outputs that found nothing within 2 R search farther, with lists made for that.
 SearchCounts ChunkOutputs::widen(Counts& counts) {
     SearchCounts result;
     result.visibility = counts.visibility;

@@ -1,4 +1,5 @@
-// The outputs of one chunk on the CPU: from the layer map where it serves, else by searching the bins.
+// The outputs of one chunk on the CPU: from the layer map where it can serve them, else by searching the
+// bins.
 #pragma once
 #include "base/monitor.h"
 #include "reconstruct/film_buffer.h"
@@ -29,7 +30,7 @@ public:
 
     DenseSamples dense;
     TileLists lists;
-    std::vector<float> lensBounds; ///< that the lists are from, through a lens map
+    std::vector<float> lensBounds; ///< that the lists were made from, through a lens map
 
 private:
     /// Where an output is stored, and in which list its bricks stand.

@@ -1,4 +1,4 @@
-// The stages of a reconstruction on the CPU: the clear version that the compute path is held against.
+// The stages of a reconstruction on the CPU: the plain version that the compute path is compared with.
 #pragma once
 #include "reconstruct/chunk_outputs.h"
 #include "reconstruct/engine.h"
@@ -31,7 +31,7 @@ public:
     std::vector<uint> words(Intermediate intermediate) const override;
     std::uint64_t peakBytes() const override { return peakBytes_; }
 
-    // What the compute path leaves to the CPU: what a shader may not loop over.
+    // Work that the compute path leaves to the CPU because its loops are too long for a shader.
 
     /// One texel of level 0 of a layer map.
     MapTexel mapTexel(const MapLayout& layout, ivec2 texel) const;

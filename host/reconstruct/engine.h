@@ -1,6 +1,6 @@
-// What a device does of a reconstruction. The order of the stages stands once, in prepared_field.cpp; an
-// engine makes them, on the CPU (cpu_engine.h) or in compute shaders (compute/vulkan_engine.h), with the same
-// words.
+// The part of a reconstruction that a device does. prepared_field.cpp alone has the order of the stages; an
+// engine runs them, on the CPU (cpu_engine.h) or in compute shaders (compute/vulkan_engine.h), with the same
+// words as results.
 #pragma once
 #include "lightfield/scene_side.h"
 #include "reconstruct/grid.h"
@@ -14,7 +14,7 @@
 
 namespace slant {
 
-/// What stages leave for comparison.
+/// The intermediates that stages leave for comparison.
 enum class Intermediate {
     bricks,
     cells,
@@ -31,17 +31,17 @@ enum class Intermediate {
     dense,
     film,
 };
-/// As messages name it.
+/// Its name in messages.
 const char* nameOf(Intermediate intermediate);
 
-/// What stays as it is from chunk to chunk of a picture; the engine keeps it.
+/// What stays the same from chunk to chunk of a picture; the engine keeps it.
 struct PictureSetup {
     Rect frame;
     FilterTable filter;
     OutputPattern pattern; ///< of methods that make outputs
     SearchKernel search;   ///< of methods that search the bins
     std::uint64_t seed = 0;
-    bool observed = false; ///< intermediates are wanted: what nobody reads is defined, too
+    bool observed = false; ///< intermediates are wanted: even what nothing reads is defined
 };
 
 /// Of one light field. Stages are called in the order of this list.
@@ -56,9 +56,9 @@ public:
     virtual void bin(const BinScope& scope) = 0;
 
     // For each picture.
-    /// The bins of samples whose slopes are so much greater than traced.
+    /// The bins for slopes that are greater than the traced ones by `slopeShift`.
     virtual void refocus(float slopeShift) = 0;
-    /// Values for what follows: of the binned samples, or of `window` and `box`.
+    /// Values for the stages below: of the binned samples, or of `window` and `box`.
     virtual void takeValues(ValuePlane plane) = 0;
     virtual const GridLayout& grid() const = 0;
     /// An empty film.
@@ -82,11 +82,11 @@ public:
     /// Sums of weight * rgb and of weight, for each pixel of the frame.
     virtual std::vector<vec4> film() const = 0;
 
-    /// The words that a stage has left of the band or chunk before it is overwritten.
+    /// The words that a stage left of a band or chunk, before they are overwritten.
     virtual std::vector<uint> words(Intermediate intermediate) const = 0;
-    /// Largest memory that stages took since begin().
+    /// Peak memory of the stages since begin().
     virtual std::uint64_t peakBytes() const = 0;
-    /// Times of the device's passes since the last call, if it has any.
+    /// Times of the device's passes since the last call, if there are any.
     virtual void addPassTimes(ReconstructReport&) {}
 };
 

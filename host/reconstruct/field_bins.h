@@ -1,14 +1,14 @@
 // The bins of one field, for pictures at any focus and of any plane of values.
 //
 // Another focus adds the same to all slopes (lightfield/refocus.h). Pinhole positions stay, and with them the
-// cells, the buckets, the order of records and what hides what. So a field is binned once, and a focus has
-// only slopes of its own. The compute path does the same (compute/device_field_bins.h).
+// cells, the buckets, the order of records and what hides what. So a field is binned once, and each focus
+// only needs its own slopes. The compute path does the same (compute/device_field_bins.h).
 #pragma once
 #include "reconstruct/bins.h"
 
 namespace slant {
 
-/// A grid for slopes that are so much greater.
+/// The grid for slopes that are greater by this much.
 GridLayout refocused(GridLayout grid, float slopeShift);
 
 class FieldBins {
@@ -16,7 +16,7 @@ public:
     FieldBins(const SceneSideSamples& samples, const BinScope& scope)
         : samples_(samples), bins_(binSamples(samples, scope)) {}
 
-    /// Slopes are so much greater than traced from now on.
+    /// From now on slopes are greater than the traced ones by this much.
     void refocus(float slopeShift);
     void takeValues(ValuePlane plane) { slant::takeValues(bins_, samples_, plane); }
     const Bins& bins() const { return bins_; }

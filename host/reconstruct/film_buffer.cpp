@@ -22,8 +22,8 @@ float meanWeight(const FilterTable& filter, ivec2 offset) {
     return means[glm::abs(offset.x)] * means[filter.reach.x + 1 + glm::abs(offset.y)];
 }
 
-/// Adds what a group of `size` samples, a plane apart, brings to the pixel that sees theirs `offset` pixels
-/// away.
+/// Adds what a group of `size` samples, one plane apart, contributes to the pixel that sees their pixel
+/// `offset` pixels away.
 void addGroup(vec4& sum, const FilterTable& filter, const vec4* sample, std::size_t plane, int size,
               ivec2 offset) {
     FilmKernels kernels{filter};
@@ -107,7 +107,7 @@ DenseSamples denseFromInput(const LightField& field, ValuePlane plane, const Rec
                 const std::size_t pixel = std::size_t(y - field.bounds.y0) * field.bounds.width() +
                                           std::size_t(x - field.bounds.x0);
                 const std::size_t count = field.samplesOf(pixel);
-                // Which samples stand in once more than others is left to chance.
+                // Chance decides which samples repeat once more than others.
                 const std::size_t turn = count < planes ? hash(uint(pixel)) : 0;
                 for (std::size_t k = 0; count > 0 && k < planes; ++k) {
                     const std::size_t sample = field.firstSample(pixel) + (k + turn) % count;

@@ -36,7 +36,7 @@ public:
     const std::vector<vec4>& sums() const { return sums_; }
 
 private:
-    /// What the planes [begin, end) add to a pixel.
+    /// The contribution of the planes [begin, end) to a pixel.
     vec4 partOf(const DenseSamples& dense, int x, int y, int begin, int end) const;
 
     Rect frame_;
@@ -47,9 +47,9 @@ private:
 /// Sums of a frame, divided by their weights: R, G, B. Pixels without weight are black and counted.
 Image filmImage(const Rect& frame, const std::vector<vec4>& sums, std::uint64_t& emptyPixels);
 
-/// Input samples as dense planes, with their values, with their values, as many as the pixel with most
-/// samples has. Others repeat theirs, so that all pixels weigh the same. Those that sanitize disabled are
-/// left out; pixels of `region` outside `bounds` have none.
+/// Input samples with their values as dense planes, as many planes as the pixel with most samples has
+/// samples. Other pixels repeat theirs, so that all pixels have the same weight. Those that sanitize disabled
+/// are left out; pixels of `region` outside `bounds` have none.
 DenseSamples denseFromInput(const LightField& field, ValuePlane plane, const Rect& region);
 
 } // namespace slant

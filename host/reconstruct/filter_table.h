@@ -1,4 +1,4 @@
-// The pixel filter as a table, so that every filter is one lookup on CPU and compute alike.
+// The pixel filter as a table, so that any filter is one lookup on CPU and device alike.
 #pragma once
 #include "scene/scene.h"
 #include "shared/reconstruct.h"

@@ -10,12 +10,12 @@
 namespace slant {
 namespace {
 
-/// Flat between 0.5 and 1.4 on lavapipe.
+/// On lavapipe, times are flat between 0.5 and 1.4.
 constexpr float kCellPerRadius = 0.7f;
 constexpr float kBrickPx = 16;
 constexpr int kMaxCellsPerBrick = 64;
 /// Two surfaces this far apart in slope can hide each other: 0.1 px over a lens step of 1/sqrt(128) (Lehtinen
-/// et al. 2011); or R, lest what is behind shines in through the smaller ones.
+/// et al. 2011); or R, so that what is behind does not shine through at smaller distances.
 constexpr float kSurfaceSlopeStep = 1.13f;
 
 struct Bounds {

@@ -1,6 +1,5 @@
-// Intermediates: what the stages of a reconstruction leave, as words, and two runs compared by them without
-// keeping them: a hash of every block of words is enough to find the first difference, and a third run to
-// read it.
+// Intermediates: the results of the stages of a reconstruction, as words. Two runs are compared by them
+// without storing them: a hash of every block of words finds the first difference, and a third run reads it.
 #pragma once
 #include "shared/types.h"
 
@@ -12,7 +11,7 @@
 namespace slant {
 
 /// Receives what the stages make, in the order in which they run, as 32-bit words. CPU and compute make the
-/// same intermediates with the same words, so that the first difference names the stage at fault.
+/// same intermediates with the same words, so that the first difference points to the stage at fault.
 class IntermediateObserver {
 public:
     virtual ~IntermediateObserver() = default;
@@ -45,7 +44,7 @@ struct IntermediateDifference {
     std::vector<uint> got;     ///< the block that differs; empty where only the size does
 };
 
-/// Holds the second run against the record of the first.
+/// Compares the second run with the record of the first.
 class IntermediateComparer final : public IntermediateObserver {
 public:
     explicit IntermediateComparer(const IntermediateRecorder& expected) : expected_(expected) {}
@@ -60,7 +59,7 @@ private:
     std::optional<IntermediateDifference> difference_;
 };
 
-/// Picks the words of one block out of a repetition of the first run.
+/// Picks the words of one block from a repetition of the first run.
 class IntermediateReader final : public IntermediateObserver {
 public:
     IntermediateReader(std::size_t index, std::size_t firstWord, std::size_t count)

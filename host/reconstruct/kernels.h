@@ -1,6 +1,6 @@
 // The kernels that CPU and compute path share (shaders/lib/), as C++. For source files only: it brings GLSL's
-// functions into the namespace. Those kernels that fetch are included where they are needed, in structs that
-// fetch for them.
+// functions into the namespace. Kernels that fetch are included where they are needed, in structs that fetch
+// for them.
 #pragma once
 #include "lightfield/lightfield.h"
 

@@ -22,7 +22,7 @@ ivec2 aligned(vec2 px, bool up) {
 } // namespace
 
 int mapTexelsPerPixel(const LightField& field) {
-    // From two samples a pixel on, wider texels soften what is in focus.
+    // With two or more samples per pixel, wider texels soften what is in focus.
     return sampleCounts(field).max <= 1 ? 1 : kMaxTexelsPerPixel;
 }
 

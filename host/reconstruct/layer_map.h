@@ -1,10 +1,10 @@
-// The layer map: what the lens centre sees, and what lies hidden behind it, half a pixel at a time.
+// The layer map: what the lens centre sees, and what is hidden behind that, at half a pixel's resolution.
 //
 // The light field of a scene that keeps still depends on pinhole position and slope alone, up to what hides
-// what. So the samples around a pinhole position are told apart into surfaces once, for all outputs; the two
-// foremost keep their mean slope and radiance and how much of the texel they cover. Through any lens position
-// the surfaces are then found by lookups. Higher levels are means over 2x2 texels, for lens positions that
-// lie far apart.
+// what. So the samples around a pinhole position are split into surfaces once, for all outputs; the map keeps
+// the mean slope and radiance of the two foremost, and how much of the texel they cover. Through any lens
+// position the surfaces are then found by lookups. Coarser levels are means over 2x2 texels, for lens
+// positions that lie far apart.
 #pragma once
 #include "reconstruct/bins.h"
 #include "reconstruct/candidates.h"
@@ -16,19 +16,19 @@ namespace slant {
 
 struct LayerMap {
     MapLayout layout{};
-    std::vector<glm::uvec4> texels; ///< packed, a level after the other
+    std::vector<glm::uvec4> texels; ///< packed, one level after the other
 };
 
-/// How far a surface may move over the lens, pixels, so that the map serves it: as far as any does, up to a
-/// bound.
+/// How far a surface may move over the lens, in pixels, for the map to serve it: as far as any surface does,
+/// up to a bound.
 float mapReach(const GridLayout& grid, float lensScale);
-/// Texels along a pixel's side: a single one where no pixel has more samples than that.
+/// Texels along a pixel's side: one if no pixel has more than one sample.
 int mapTexelsPerPixel(const LightField& field);
-/// Rows of a band whose map fits into so many bytes. Throws Error(resources) where a row of tiles does not.
+/// Rows of a band whose map fits into this many bytes. Throws Error(resources) if a row of tiles does not.
 int mapRows(const Rect& frame, int texels, float reachPx, std::uint64_t bytes);
 
-/// The texels that outputs of `region` can come to see, where the grid has samples; no levels coarser than
-/// lens positions `spreadPerPx` apart on a surface blurred by a pixel need.
+/// The texels that outputs of `region` can see, where the grid has samples. The coarsest level is that needed
+/// for lens positions `spreadPerPx` apart on a surface blurred by one pixel.
 MapLayout chooseMap(const GridLayout& grid, const Rect& region, int texels, float reachPx, float spreadPerPx);
 /// Texels of a level, and of all levels before it.
 ivec2 levelSize(const MapLayout& map, int level);

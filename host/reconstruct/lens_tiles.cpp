@@ -13,7 +13,7 @@ namespace {
 
 /// Lens positions along one side of a group's part of the square, and places along one side of a tile.
 constexpr int kLensSteps = 3, kTileSteps = 2;
-/// Between the places that are looked at the map is curved: this much of what they span, and a pixel.
+/// The map is curved between the sampled places: bounds grow by this share of their span, and by one pixel.
 constexpr float kBulge = 0.05f, kBulgePx = 1;
 
 /// Along x and y.
@@ -26,8 +26,8 @@ struct Interval {
     }
 };
 
-/// The places of a tile as a group sees them, on the scene's side, blocked or not, as the map is smooth only
-/// so; none where the film is dark.
+/// The places of a tile as a group sees them, on the scene's side. Blocked ones count too, since only then
+/// the map is smooth; none where the film is dark.
 std::vector<Output> placesOf(const LensMap& lens, const OutputPattern& pattern, std::size_t group,
                              vec2 corner) {
     const LensBox& cells = pattern.cells[group];

@@ -1,10 +1,10 @@
-// Which tiles of outputs can see a brick through a lens of many surfaces: what tilesSeeing is for a thin one.
+// Which tiles of outputs can see a brick through a compound lens: what tilesSeeing is for a thin lens.
 //
 // An output sees samples whose pinhole position is near xy - slope uv, both on the scene's side. For a lens
-// group, each column and each row of tiles has bounds of that, at a series of slopes: between two of them
-// bounds are interpolated, which leaves nothing out, as least values of linear functions are concave. Lower
-// bounds are the least of all further tiles, upper ones the greatest of all before, so that both ascend and
-// the tiles that see a brick are found by bisection.
+// group, each column and each row of tiles has bounds on that at a series of slopes. Between two slopes
+// bounds are interpolated; this leaves nothing out, since the least value of linear functions is concave.
+// Lower bounds are the minimum over all later tiles, upper bounds the maximum over all earlier ones, so that
+// both ascend and bisection finds the tiles that see a brick.
 #pragma once
 #include "reconstruct/filter_table.h"
 #include "reconstruct/tile_lists.h"
@@ -21,8 +21,8 @@ std::vector<float> lensTileBounds(const LensMap& lens, const OutputPattern& patt
 TileRange tilesOfCompoundLens(const Brick& brick, const GridLayout& grid, const OutputLayout& layout,
                               std::span<const float> bounds, std::size_t group);
 
-/// The region for whose outputs the samples of a picture are binned: its pixels and the filter's reach. Of a
-/// field with a lens map it is on the scene's side, and with what its metric and pupils ask for beyond
+/// The region for whose outputs the samples of a picture are binned: its pixels and the filter's reach. For a
+/// field with a lens map it is on the scene's side, and includes what its metric and pupils need beyond
 /// widestSearchPx.
 Rect searchRegionOf(const SceneSideSamples& samples, const FilterTable& filter);
 

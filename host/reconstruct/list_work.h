@@ -1,5 +1,5 @@
-// How the lists of a chunk are served: which class each list has, what the layer map leaves of it, and so
-// what is to be searched for in the bins.
+// How the lists of a chunk are served: the class of each list, what the layer map leaves of it, and so what
+// must be searched for in the bins.
 #pragma once
 #include "reconstruct/plan.h"
 
@@ -12,7 +12,7 @@ struct ListClasses {
     std::vector<uint> codes;  ///< of each list: clusters, kInFocusBit, kSparseBit (ListClass::code)
     std::vector<uint> missed; ///< two per list: see missedOf
 
-    /// Nothing comes from a map, all is searched for.
+    /// Nothing comes from a map; all is searched for.
     explicit ListClasses(std::size_t lists) : codes(lists, 0), missed(2 * lists, ~0u) {}
     void set(std::size_t list, uint code, std::uint64_t missedPixels) {
         codes[list] = code;
@@ -25,14 +25,14 @@ struct ListClasses {
     }
 };
 
-/// Of a position in a region whose tiles begin at its corner.
+/// The bit of a position in a region whose tiles begin at its corner.
 inline int tileBit(ivec2 position) {
     return position.y % kTileSize * kTileSize + position.x % kTileSize;
 }
 /// The bits of the pixels of a tile of which `size` lie in the region; more than kTileSize count as that.
 std::uint64_t tilePixels(ivec2 size);
 
-/// A list whose missed pixels are to be searched for.
+/// A list whose missed pixels must be searched for.
 struct ListItem {
     uint tileX, tileY;
     uint group; ///< of the chunk
@@ -47,8 +47,8 @@ struct ListWork {
 };
 ListWork listWork(const ListClasses& classes, const Chunk& chunk, const OutputPattern& pattern);
 
-/// Adds to `share`, of the pixels of `frame` that a band finishes, what a chunk of its lists brings: 1 for a
-/// list that the map serves there, 1/2 if it is in focus, over `groups` in all.
+/// Adds to `share`, for the pixels of `frame` that a band finishes, the part of a chunk's lists: 1 for a list
+/// that the map serves there, 1/2 if it is in focus, divided by the number `groups` of all.
 void addMapShare(std::vector<float>& share, const Rect& frame, const Band& band, const ListClasses& classes,
                  std::size_t groups);
 

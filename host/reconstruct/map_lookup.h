@@ -1,10 +1,10 @@
 // Outputs from the layer map: which lists of outputs can be taken from it, and how.
 //
 // A list (a tile of pixels, a group of lens positions) sees clusters of surfaces, with gaps in slope between
-// them. Where each of them moves by a few pixels only from its nearest to its farthest part, an output looks
-// its way through them front to back: in each it follows its ray to where the map has a layer of that slope,
-// and composites what it finds. Its lens positions are the same in every pixel, and so free of noise; what is
-// in focus is looked up at the outputs' own places in the pixel, the rest at its middle.
+// them. Where each of them moves by only a few pixels from its nearest to its farthest part, an output goes
+// through them front to back: in each it follows its ray to where the map has a layer of that slope, and
+// composites what it finds. Its lens positions are the same in every pixel, and so free of noise; what is in
+// focus is looked up at the outputs' own places in the pixel, the rest at its middle.
 #pragma once
 #include "reconstruct/layer_map.h"
 #include "reconstruct/output_pattern.h"
@@ -14,7 +14,7 @@
 namespace slant {
 
 struct ListClass {
-    std::vector<Cluster> clusters; ///< front to back; empty where outputs have to be searched for in the bins
+    std::vector<Cluster> clusters; ///< front to back; empty if outputs must be searched for in the bins
     bool inFocus = false; ///< one of them is in focus: each output counts at its own place in the pixel
     bool sparse = false;  ///< a few outputs are enough, wherever they come from
 
@@ -25,12 +25,12 @@ struct ListClass {
     }
 };
 
-/// How the outputs of a list are made that look through `lens`, a part of the disc of radius `lensScale`.
+/// How to make the outputs of a list that look through `lens`, a part of the disc of radius `lensScale`.
 ListClass classOfList(const Bins& bins, std::span<const uint> bricks, const LensBox& lens, float lensScale,
                       const MapLayout& map);
 
-/// Where the outputs of a pattern lie on the lens when they are taken from the map: in their cells, as even
-/// as can be.
+/// Where the outputs of a pattern lie on the lens when they are taken from the map: in their cells, as evenly
+/// as possible.
 std::vector<vec4> lensPoints(const OutputPattern& pattern);
 
 /// See MapLayout::spreadPerPx.

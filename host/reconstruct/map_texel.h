@@ -17,7 +17,7 @@ struct MapTexel {
     int count = 0;
 };
 
-/// Two words a layer.
+/// Two words per layer.
 glm::uvec4 packTexel(const MapTexel& texel, const SlopeCode& code);
 MapTexel unpackTexel(const glm::uvec4& words, const SlopeCode& code);
 

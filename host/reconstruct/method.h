@@ -1,4 +1,4 @@
-// The methods of reconstruction, and what tells them apart.
+// The methods of reconstruction, and how they differ.
 #pragma once
 #include <cstddef>
 #include <optional>
@@ -10,7 +10,7 @@ namespace slant {
 
 enum class Method {
     box,       ///< the pixel filter over the input samples: no reconstruction
-    window,    ///< reprojection within a fixed window of pixels: what this program grew from, for comparison
+    window,    ///< reprojection within a fixed window of pixels: where Slant came from, for comparison
     full,      ///< reprojection, apparent surfaces and visibility for every output (Lehtinen et al. 2011)
     automatic, ///< "auto": outputs of blurred surfaces from a layer map, the others as `full`
 };
@@ -27,14 +27,14 @@ struct SearchContext;
 struct Output;
 struct Reconstructed;
 
-/// How methods that search the bins do so at first; outputs that it does not take go on to the kernel of
-/// visibility (search.h).
+/// How methods that search the bins do so at first; the outputs that this leaves go to the visibility kernel
+/// (search.h).
 struct SearchKernel {
     const char* pass = nullptr; ///< the shader
     Reconstructed (*onCpu)(const SearchContext& context, const Output& output) = nullptr;
 };
 
-/// One row of the table of methods: all that the rest of the program asks of a method.
+/// One row of the table of methods: all that the rest of the program needs to know of a method.
 struct MethodTraits {
     std::string name; ///< what users call it
     DenseSource source;
@@ -43,8 +43,8 @@ struct MethodTraits {
 
     /// Whether it makes outputs, so that their number and the lens matter.
     bool makesOutputs() const { return source != DenseSource::input; }
-    /// Whether it can show another focus: not where samples are looked for in their own pixels, which another
-    /// focus moves them out of.
+    /// Whether it can show another focus. Methods that look for samples in their own pixels cannot, since
+    /// another focus moves samples out of their pixels.
     bool refocuses() const { return source == DenseSource::bins; }
 };
 

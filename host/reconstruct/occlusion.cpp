@@ -11,7 +11,7 @@ namespace {
 /// Blocks of 1 or 2 px and closer planes lower the error by a few percent only.
 constexpr float kMinBlockPx = 4, kMinSpacingPx = 1;
 constexpr int kMaxPlanes = 128;
-/// Of all planes, 128 MiB; larger pictures have larger blocks.
+/// Limit for all planes, 128 MiB; larger pictures have larger blocks.
 constexpr double kMaxBlocks = 1 << 25;
 constexpr int kRaysPerPixel = 8;
 

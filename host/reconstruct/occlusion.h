@@ -1,9 +1,9 @@
-// How much of the lens each binned sample is visible from.
+// From how much of the lens each binned sample is visible.
 //
-// A surface that lies partly behind another holds fewer samples a square pixel than the pattern does, though
-// it is as solid as any. So coverage is not judged by how many samples there are but by how many there are of
-// those rays that get so far: the rays that would cross a plane of the sample's slope near it, less those
-// that end before. Counted for planes of slope and blocks of pinhole position, over a few rays a pixel.
+// A surface that lies partly behind another has fewer samples per square pixel than the pattern, though it is
+// as solid as any. So coverage is not the number of samples but the ratio of samples to the rays that get as
+// far: the rays that would cross a plane of the sample's slope near it, less those that end before it. They
+// are counted for planes of slope and blocks of pinhole position, over a few rays per pixel.
 #pragma once
 #include "reconstruct/grid.h"
 
@@ -12,7 +12,7 @@
 
 namespace slant {
 
-/// Planes over the slopes of the grid: as many as tell its surfaces apart, up to a hundred or so.
+/// Planes over the slopes of the grid: as many as separate its surfaces, up to about a hundred.
 OcclusionLayout chooseOcclusion(const GridLayout& grid, const SampleDensity& density);
 
 /// Blocks of all planes.
@@ -20,7 +20,7 @@ inline std::size_t stoppedBlocks(const OcclusionLayout& layout) {
     return std::size_t(layout.planeCount) * layout.blockCount.y * layout.blockCount.x;
 }
 
-/// Rays that end before each block: [plane][row][column]. As bin_occlude.comp.
+/// Rays that end before each block: [plane][row][column]. Same as bin_occlude.comp.
 std::vector<uint> countStopped(std::span<const LightFieldSample> samples, const GridLayout& grid,
                                const OcclusionLayout& layout);
 

@@ -8,9 +8,9 @@
 
 namespace slant {
 
-/// Of the method `window`; the defaults are those of the program that it is taken from.
+/// Parameters of the method `window`; the defaults are those of the program it is taken from.
 struct WindowOptions {
-    int rangePx = 4;                    ///< samples of pixels that far away to each side are looked at
+    int rangePx = 4;                    ///< samples of pixels up to this far to each side are searched
     float alpha = 100;                  ///< of the Gaussian exp(-alpha distance^2), per square pixel
     std::optional<float> lensStep = {}; ///< lens radii; unset: 1 / sqrt(samples per pixel)
     bool fill = false; ///< where no sample is near, take the nearest of the window; else the output is black

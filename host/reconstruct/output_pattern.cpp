@@ -56,7 +56,7 @@ LensBox cellsOf(const OutputPattern& pattern, std::size_t first, std::size_t las
 }
 
 /// The lens group of 2^bits of M outputs is about 2 sqrt(2^bits / M) lens radii wide; what it sees spreads by
-/// that times the slope. A spread of a brick is worth the sharing.
+/// that times the slope. Sharing pays off up to a spread of one brick.
 int groupBitsFor(int outputsPerPixel, float slopePx) {
     constexpr float kSpreadPx = 16;
     int bits = 0;
@@ -66,7 +66,7 @@ int groupBitsFor(int outputsPerPixel, float slopePx) {
     return bits;
 }
 
-/// Outputs a pixel that are enough where all see the same: what they integrate is the pixel alone.
+/// Outputs per pixel that are enough where all see the same: they integrate over the pixel alone.
 constexpr int kSparseOutputBits = 5;
 
 struct SequenceEntry {
@@ -74,7 +74,7 @@ struct SequenceEntry {
     glm::uvec4 entry;
 };
 
-/// The first 2^bits points of a Sobol' sequence, of which two dimensions are a lens cell.
+/// The first 2^bits points of a Sobol' sequence, two dimensions of which give the lens cell.
 std::vector<SequenceEntry> lensSequence(int bits) {
     const auto lensX = sobolDirections(0, 0, {}), lensY = sobolDirections(1, 0, {1});
     const auto pixelX = sobolDirections(2, 1, {1, 3}), pixelY = sobolDirections(3, 1, {1, 3, 1});
@@ -96,7 +96,7 @@ std::vector<SequenceEntry> lensSequence(int bits) {
 OutputPattern makeOutputPattern(int outputsPerPixel, float slopePx, float lensScale, Aperture aperture) {
     if (!isOutputCount(outputsPerPixel))
         throw Error(ErrorCode::usage,
-                    fmt::format("outputs a pixel must be a power of two from 1 to {}, not {}",
+                    fmt::format("outputs per pixel must be a power of two from 1 to {}, not {}",
                                 kMaxOutputsPerPixel, outputsPerPixel));
     const int bits = std::countr_zero(unsigned(outputsPerPixel));
     OutputPattern pattern;

@@ -1,7 +1,8 @@
 // Where the outputs of a pixel lie: a pattern that is stratified in pixel, lens and time together.
 //
-// The lens is cut into M cells, one an output, so that output m of every pixel lies in the same small part of
-// the lens and a tile of pixels can share its search; within the cell it is jittered from pixel to pixel.
+// The lens is cut into M cells, one per output, so that output m of every pixel lies in the same small part
+// of the lens and a tile of pixels can share its search; within the cell, outputs are jittered from pixel to
+// pixel.
 // The pixel position and the time come from a Sobol' sequence whose first two dimensions gave the lens cell,
 // Owen-scrambled for each pixel. All of it is integer arithmetic, and exact.
 #pragma once
@@ -16,9 +17,9 @@
 namespace slant {
 
 struct OutputPattern {
-    /// One an output: Sobol' bits, bit-reversed, of x, y and time; lens cell (column | row << 16), with which
-    /// output of its group has its place in the group's order (<< 8). The first 2^n outputs of all groups in
-    /// that order are a Sobol' sequence too, as stratified as all.
+    /// One per output: Sobol' bits, bit-reversed, of x, y and time; lens cell (column | row << 16), with
+    /// which output of its group has its place in the group's order (<< 8). The first 2^n outputs of all
+    /// groups in that order are a Sobol' sequence too, as stratified as all.
     std::vector<glm::uvec4> entries;
     ivec2 lensCells{1, 1};       ///< columns, rows of the lens grid; powers of two
     float lensScale = 1;         ///< radius of the disc that outputs look through
@@ -40,12 +41,13 @@ constexpr bool isOutputCount(int outputsPerPixel) {
            std::has_single_bit(unsigned(outputsPerPixel));
 }
 
-/// Groups are of up to kMaxGroupSize outputs, fewer where `slopePx`, the largest slope to either side, would
+/// Groups have up to kMaxGroupSize outputs, fewer if `slopePx`, the largest slope to either side, would
 /// spread them over the picture. Throws Error(usage) unless isOutputCount(outputsPerPixel).
 OutputPattern makeOutputPattern(int outputsPerPixel, float slopePx, float lensScale = 1,
                                 Aperture aperture = {});
 
-/// Takes an output of the film to the scene's side of a lens, where samples are searched (camera/lens_map.h).
+/// Takes an output from the film to the scene's side of a lens, where samples are searched
+/// (camera/lens_map.h).
 void toSceneSide(const LensMap& lens, Output& output);
 
 Output outputAt(ivec2 pixel, int output, const OutputPattern& pattern, uint seed);

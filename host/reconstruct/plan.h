@@ -16,16 +16,16 @@ struct Band {
     Rect region; ///< pixels whose dense samples it needs: the rows and the filter's reach
 };
 
-/// Bands of up to `maxRows` rows whose region holds at most `maxSamples` dense samples at `planes` a pixel.
-/// Throws Error(resources) when a row of tiles is more than that.
+/// Bands of up to `maxRows` rows whose region holds at most `maxSamples` dense samples at `planes` per pixel.
+/// Throws Error(resources) if one row of tiles needs more.
 std::vector<Band> planBands(const Rect& frame, const FilterTable& filter, int planes,
                             std::uint64_t maxSamples, int maxRows = std::numeric_limits<int>::max());
 
-/// The whole picture and the filter's reach.
+/// The whole picture and the filter's reach around it.
 Rect outputRegion(const Rect& frame, const FilterTable& filter);
 
-/// Throws Error(resources), as the reconstruction of such a field would, when the memory budget is too small
-/// for a row of tiles; it needs no samples to know.
+/// Throws Error(resources), as the reconstruction of such a field would, if the memory budget is too small
+/// for a row of tiles. This check needs no samples.
 void checkBudget(const Rect& frame, int mostSamplesPerPixel, const ReconstructOptions& options);
 
 struct Plan {

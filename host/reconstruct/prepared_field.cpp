@@ -112,7 +112,8 @@ private:
         return work.outputs;
     }
 
-    /// Bands, and in each the chunks that `make` fills with outputs; it returns how many it made.
+    /// Runs through bands, and in each through the chunks that `make` fills with outputs; `make` returns how
+    /// many.
     template <typename BeginBand, typename Make>
     void forEachChunk(const Plan& plan, const OutputPattern& pattern, const BeginBand& beginBand,
                       const Make& make) {

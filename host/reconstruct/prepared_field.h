@@ -9,11 +9,11 @@
 
 namespace slant {
 
-/// A field made ready, so that its pictures share what they can: samples are binned for the first of them
-/// only. Holds the bins from then on; pictures of other focuses 16 bytes per sample more.
+/// A field made ready, so that its pictures share what they can: samples are binned only for the first one.
+/// Keeps the bins from then on; pictures with other focuses take another 16 bytes per sample.
 class PreparedField {
 public:
-    /// The field must be sanitized, and live on unchanged.
+    /// The field must be sanitized, and must live on unchanged.
     template <typename Make>
     PreparedField(const LightField& field, const ReconstructOptions& options, const Make& makeEngine)
         : options_(options), samples_(field, traitsOf(options.method).makesOutputs()),
@@ -22,9 +22,9 @@ public:
     PreparedField(const PreparedField&) = delete;
     PreparedField& operator=(const PreparedField&) = delete;
 
-    /// The picture of field.frame, channels R, G, B: the values of a plane as they are seen through a lens.
-    /// `observer` may be null. Throws Error(usage) for a view that the method cannot have, or another focus
-    /// unless options.anyFocus. A picture does not depend on which others were made.
+    /// The picture of field.frame, channels R, G, B: the values of a plane as seen through a lens. `observer`
+    /// may be null. Throws Error(usage) for a view that the method cannot have, or another focus unless
+    /// options.anyFocus. A picture does not depend on which others are made.
     Image picture(const LensView& view, ValuePlane plane, Monitor& monitor, ReconstructReport& report,
                   IntermediateObserver* observer);
 
@@ -42,7 +42,7 @@ class Reconstructor {
 public:
     virtual ~Reconstructor() = default;
 
-    /// The field must be sanitized, and live on unchanged; so must the reconstructor.
+    /// The field must be sanitized. It must live on unchanged, and so must the reconstructor.
     std::unique_ptr<PreparedField> prepare(const LightField& field, const ReconstructOptions& options) {
         return std::make_unique<PreparedField>(
             field, options, [this](const SceneSideSamples& samples) { return makeEngine(samples); });
@@ -58,7 +58,7 @@ private:
     virtual std::unique_ptr<Engine> makeEngine(const SceneSideSamples& samples) = 0;
 };
 
-/// Throws Error(usage) where a method cannot look through a view.
+/// Throws Error(usage) if a method cannot look through a view.
 void checkView(const ReconstructOptions& options, const LensView& view);
 
 } // namespace slant

@@ -1,4 +1,4 @@
-// What a reconstruction met and cost.
+// What a reconstruction encountered and cost.
 #pragma once
 #include "base/monitor.h"
 
@@ -8,12 +8,13 @@
 
 namespace slant {
 
-/// Of outputs that were made by searching, in bins or a window.
+/// Counts of outputs that were made by searching, in bins or a window.
 struct SearchCounts {
-    std::uint64_t visibility = 0; ///< needed apparent surfaces told apart
+    std::uint64_t visibility = 0; ///< needed apparent surfaces to be separated
     std::uint64_t widened = 0;    ///< found nothing within 2 R (window: took the nearest sample)
     std::uint64_t holes = 0;      ///< found nothing at all and were left out (window: are black)
-    std::uint64_t overflowed = 0; ///< met the candidate limit of the compute path and were done on the CPU
+    std::uint64_t overflowed =
+        0; ///< exceeded the candidate limit of the compute path and were done on the CPU
 
     void add(const SearchCounts& other) {
         visibility += other.visibility;

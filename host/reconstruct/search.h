@@ -16,11 +16,11 @@ struct Reconstructed {
     int iterations = 0; ///< loop steps taken; beyond kMaxLoopIterations compute leaves the output to the CPU
 };
 
-/// By the front-most apparent surface within R (shaders/lib/nearest.glsl). What needs more needs
-/// resolveVisibility.
+/// From the front-most apparent surface within R (shaders/lib/nearest.glsl). An output that needs more goes
+/// to resolveVisibility.
 Reconstructed reconstructNearest(const SearchContext& context, const Output& output);
 
-/// By all apparent surfaces within twice `baseRadius` (shaders/lib/visibility.glsl).
+/// From all apparent surfaces within twice `baseRadius` (shaders/lib/visibility.glsl).
 Reconstructed resolveVisibility(const SearchContext& context, const Output& output, float baseRadius);
 
 } // namespace slant

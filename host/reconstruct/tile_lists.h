@@ -28,7 +28,7 @@ TileRange tilesSeeing(const Brick& brick, const GridLayout& grid, const OutputLa
 TileLists makeTileLists(const Bins& bins, const OutputLayout& layout, std::span<const LensBox> groups,
                         float marginPx);
 
-/// The same where tiles see a brick through a group in another way.
+/// The same, if tiles see a brick through a group in another way.
 using TilesOfBrick = std::function<TileRange(const Brick& brick, std::size_t group)>;
 TileLists makeTileLists(const Bins& bins, const OutputLayout& layout, std::size_t groups,
                         const TilesOfBrick& tilesOf);

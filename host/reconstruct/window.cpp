@@ -10,7 +10,7 @@
 namespace slant {
 namespace {
 
-/// A pinhole position that no output is near to.
+/// A pinhole position that is far from every output.
 constexpr float kNowherePx = 1e18f;
 
 /// Distance of samples.

@@ -1,9 +1,9 @@
 // One output of the method `window`: the samples of a fixed window of pixels around it, after Shu-Hung You,
 // "Exploring Light-Field Reconstruction on Realistic Camera" (2014), section 2, the program that Slant grew
-// from. Two things differ: weights are normalised (its pictures darkened with more samples), and a surface
-// surrounds an output where the convex hull of its samples does, found in one sweep instead of trying all
-// triangles. Samples that blur moves further than the window are not found: the larger the blur, the more
-// outputs find nothing at all.
+// from. Two things differ: weights are normalised (its pictures darkened with more samples), and whether a
+// surface surrounds an output is decided by the convex hull of its samples, found in one sweep instead of
+// trying all triangles. Samples that blur moves out of the window are not found: the larger the blur, the
+// more outputs find nothing at all.
 #pragma once
 #include "lightfield/scene_side.h"
 #include "reconstruct/options.h"
@@ -14,7 +14,7 @@
 
 namespace slant {
 
-/// Samples in the order of the field, as the search reads them.
+/// Samples in the order of the field, in the form that the search reads.
 struct WindowSamples {
     std::vector<vec4> positions;  ///< pinhole position x, y, slope, square of its radius; far off where the
                                   ///< sample is disabled
@@ -38,7 +38,7 @@ struct WindowResult {
     vec3 rgb{0};
 };
 
-/// `scratch` holds nothing between calls; it saves allocations.
+/// `scratch` keeps no state between calls; it saves allocations.
 WindowResult lookThroughWindow(const WindowSamples& samples, const WindowSearch& search, ivec2 pixel,
                                const Output& output, std::vector<WindowCandidate>& scratch);
 

@@ -1,6 +1,5 @@
-// Auxiliary images: what the samples know beside their radiance, for denoisers and compositors. They are
-// planes of values that are reconstructed as colours are, so that each has the very weights that the
-// picture's colours had.
+// Auxiliary images: what the samples hold besides radiance, for denoisers and compositors. They are planes of
+// values that are reconstructed like colours, with exactly the same weights.
 //
 // Channels, all of them averages over the rays of a pixel under its filter:
 // - A: the share of rays that hit something;
@@ -18,7 +17,7 @@ namespace slant {
 struct AuxiliarySet {
     ValuePlane plane;
     std::vector<std::string> channels;
-    float (*finish)(float mean, float coverage); ///< a channel of a pixel from the mean of its values
+    float (*finish)(float mean, float coverage); ///< makes a channel of a pixel from the mean of its values
 };
 
 /// A, Z; and albedo and normal, where samples have them; in the order in which they are added to a picture.

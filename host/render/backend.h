@@ -21,8 +21,8 @@ public:
 
     const std::string& name() const { return name_; }
     Reconstructor& reconstructor() const { return *reconstructor_; }
-    /// Dense samples that a buffer holds: with no larger a memory budget than this the CPU cuts a picture
-    /// into the chunks that the device can hold.
+    /// Dense samples that a buffer holds: with a memory budget no larger than this, the CPU cuts a picture
+    /// into chunks that the device can hold.
     std::uint64_t maxDenseSamples() const;
 
 private:

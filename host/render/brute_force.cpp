@@ -9,7 +9,7 @@
 namespace slant {
 namespace {
 
-/// Samples of a pixel traced at a time, a multiple of the film's block.
+/// Samples per pixel traced at a time, a multiple of the film's block.
 constexpr int kBatch = kFilmBlock;
 
 } // namespace

@@ -1,4 +1,4 @@
-// The reference: every pixel from many samples of its own, without reconstruction.
+// The reference: every pixel from its own many samples, without reconstruction.
 #pragma once
 #include "base/monitor.h"
 #include "image/image.h"
@@ -12,12 +12,12 @@ namespace slant {
 
 struct BruteForce {
     Image image;                   ///< of scene.film.crop, channels R, G, B (and auxiliary ones)
-    FieldDefects defects;          ///< bad samples, treated as everywhere
-    std::uint64_t emptyPixels = 0; ///< black for want of samples
+    FieldDefects defects;          ///< bad samples, treated as in any field
+    std::uint64_t emptyPixels = 0; ///< black because no sample reached them
 };
 
-/// The same pattern and pixel filter as method `box` of scene.pixelSamples samples, at any number of them in
-/// bounded memory. One stage "trace" of the monitor.
+/// The same pattern and pixel filter as method `box` with scene.pixelSamples samples, but any number of them
+/// in bounded memory. One stage "trace" of the monitor.
 /// With `auxiliary` the image has the channels of render/auxiliary.h, too.
 BruteForce bruteForce(const Scene& scene, const Tracer& tracer, std::uint64_t seed, Monitor& monitor,
                       bool auxiliary = false);

@@ -1,5 +1,4 @@
-// The pictures of a light field: colours and auxiliary channels, compared with the CPU's where that is asked
-// for.
+// The pictures of a light field: colours and auxiliary channels, compared with the CPU's on request.
 #pragma once
 #include "image/image.h"
 #include "lightfield/lens_view.h"
@@ -34,7 +33,7 @@ public:
     /// warning, where the samples have none.
     void addAuxiliary(Image& image, const LensView& view, Monitor& monitor, ReconstructReport& report);
 
-    /// Of the pictures since the last call, one each; none unless they were compared.
+    /// One per picture since the last call; none unless they were compared.
     std::vector<Agreement> takeAgreements();
 
 private:

@@ -16,7 +16,7 @@ struct TracedField {
     FieldDefects defects;
 };
 
-/// What a file says of the light field of a scene; `source` names the scene.
+/// What a file says about the light field of a scene; `source` names the scene.
 FieldMetadata metadataOf(const Scene& scene, const Camera& camera, std::string source, std::uint64_t seed);
 
 /// Throws what traceLightField throws.
@@ -39,7 +39,7 @@ struct Rendering {
 };
 
 /// Traces, reconstructs and filters the picture of a scene. Throws Error(resources) for a memory budget that
-/// is too small, before tracing; and what Tracer, traceLightField and FieldPictures throw.
+/// is too small, before tracing; and whatever Tracer, traceLightField and FieldPictures throw.
 Rendering render(const Scene& scene, const RenderOptions& options, Backend& backend, Monitor& monitor);
 
 } // namespace slant

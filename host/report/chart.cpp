@@ -56,7 +56,7 @@ struct Range {
         high = std::max(high, value);
     }
     bool contains(double value) const { return value > low && value < high; }
-    /// 1, 2, 5, 10, ..., or if these are many, the powers of ten among them.
+    /// 1, 2, 5, 10, ..., or only the powers of ten if these are too many.
     std::string tics() const {
         const bool many = high > 300 * low;
         std::string list;
@@ -79,7 +79,7 @@ std::size_t indexIn(std::vector<Value>& list, const Value& value) {
     return list.size() - 1;
 }
 
-/// Puts one chart into gnuplot's words.
+/// Writes one chart as a gnuplot script.
 class Script {
 public:
     Script(const SceneSummary& scene, std::span<const Point> points, Figure figure)
@@ -114,7 +114,7 @@ public:
     }
 
 private:
-    /// What each method gains, a line for each error that it or the reference reaches.
+    /// The gains of each method, one line for each error that it or the reference reaches.
     std::vector<std::string> gainLines() const {
         std::vector<std::string> lines;
         if (figure_ != Figure::relMse) return lines;
@@ -129,7 +129,7 @@ private:
         return lines;
     }
 
-    /// What tells the curve from the others.
+    /// The parts of a curve's title that distinguish it from the others.
     std::string titleOf(const Curve& curve) const {
         const Point& p = *curve.first;
         std::string title = p.method;
@@ -154,7 +154,7 @@ private:
             "set key at screen 0.5, screen {:.4f} center bottom horizontal maxcols {} Left reverse "
             "noenhanced\n",
             kWidth, heightPx_,
-            quoted(fmt::format("{}, {}x{}, against {} samples a pixel", scene_.name, scene_.width,
+            quoted(fmt::format("{}, {}x{}, against {} samples per pixel", scene_.name, scene_.width,
                                scene_.height, scene_.truthSpp)),
             figure_ == Figure::relMse ? "'relMSE'" : "'FLIP'", seconds_.tics(), errors_.tics(),
             seconds_.text(), errors_.text(), double(plotPx) / heightPx_, double(keyPx) / heightPx_, columns);

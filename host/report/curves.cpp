@@ -12,7 +12,7 @@ double powerLaw(double x, double x0, double y0, double x1, double y1) {
     return y0 * std::pow(y1 / y0, t);
 }
 
-/// `from` of the point where `to` is met; the front's order makes both monotone.
+/// The value of `from` where `to` has the given value; the front's order makes both monotone.
 template <double Cost::*from, double Cost::*to>
 std::optional<double> along(std::span<const Cost> front, double target) {
     for (std::size_t i = 0; i < front.size(); ++i) {

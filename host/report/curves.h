@@ -22,13 +22,13 @@ std::optional<double> secondsAt(std::span<const Cost> front, double error);
 /// The reverse.
 std::optional<double> errorAt(std::span<const Cost> front, double seconds);
 
-/// A quotient, or a lower bound of it where one of the fronts ends before.
+/// A quotient, or a lower bound of it if one of the fronts ends before.
 struct Factor {
     double value = 0;
     bool atLeast = false;
 };
 
-/// What a front saves over the reference's at an error; nothing where neither value nor bound is known.
+/// What a front gains over the reference's at an error; nothing if neither a value nor a bound is known.
 struct Gain {
     std::optional<Factor>
         equalError; ///< seconds of the reference over seconds of the front, to reach the error

@@ -115,10 +115,10 @@ public:
         html_ = kHead;
         html_ +=
             "<h1>Speed against error</h1>\n"
-            "<p>Each method reconstructs a picture from a few samples a pixel; the reference is brute force "
-            "at rising sample counts. Errors are against a ground truth of other samples: relMSE is the mean "
-            "of err\u00b2/(truth\u00b2 + 0.01), FLIP what a person sees who flips between the two, 0 to "
-            "1.</p>\n";
+            "<p>Each method reconstructs a picture from a few samples per pixel; the reference is brute "
+            "force at rising sample counts. Errors are against a ground truth of other samples: relMSE is "
+            "the mean of err\u00b2/(truth\u00b2 + 0.01), FLIP what a person sees who flips between the "
+            "two, 0 to 1.</p>\n";
         addGains();
         for (std::size_t i = 0; i < results_.scenes.size(); ++i) addScene(results_.scenes[i], charts_[i]);
         addTable();
@@ -162,7 +162,7 @@ private:
         html_ += "</div>\n<p>Below each picture, the FLIP of its pixels: black is 0, pale yellow 0.4 and "
                  "more.</p>\n"
                  "<div class=\"pictures\">\n";
-        addFigure({scene.truthPicture}, "ground truth", fmt::format("{} samples a pixel", scene.truthSpp));
+        addFigure({scene.truthPicture}, "ground truth", fmt::format("{} samples per pixel", scene.truthSpp));
         const Point* usual = nullptr; // the default method, else the last one
         for (const Point& p : points) {
             if (p.picture.empty() || p.isReference()) continue;
@@ -186,7 +186,7 @@ private:
 
     void addPoint(const Point& p, const std::string& title) {
         addFigure({p.picture, p.map}, title,
-                  fmt::format("{} samples a pixel, {}, relMSE {:.3g}, FLIP {:.4f}", settingText(p),
+                  fmt::format("{} samples per pixel, {}, relMSE {:.3g}, FLIP {:.4f}", settingText(p),
                               secondsText(p.seconds()), p.relMse, p.flip));
     }
 

@@ -20,7 +20,7 @@ struct Point {
     std::string key; ///< digest of all that decides the point
     std::string scene, method;
     int spp = 0;
-    int outputs = 0;    ///< a pixel; 0 where the method has none
+    int outputs = 0;    ///< per pixel; 0 if the method has none
     std::string device; ///< name, or "cpu"
     int runs = 0;       ///< timed runs that the medians are of
     double traceSeconds = 0, reconstructSeconds = 0;
@@ -62,16 +62,16 @@ struct MethodGain {
 /// `points` of one scene; by method and device in their order, each at every error of kGainErrors.
 std::vector<MethodGain> gainsOf(std::span<const Point> points);
 
-/// relMSE that the noise of the ground truth itself adds to every figure, at most: judged by the reference's
-/// error at its most samples, as if it fell as one over the samples (a good pattern's falls faster); 0
-/// without a reference.
+/// Upper bound of the relMSE that the noise of the ground truth adds to every figure: extrapolated from the
+/// reference's error at its most samples, as if it fell as one over the samples (with a good pattern it falls
+/// faster); 0 without a reference.
 double truthNoise(std::span<const Point> points, int truthSpp);
 
 nlohmann::ordered_json toJson(const Results& results);
 /// The points of a results file; throws nlohmann::json::exception if it is none.
 std::vector<Point> pointsFromJson(const nlohmann::ordered_json& json);
 
-/// One row a point, after a row of names; comma-separated (RFC 4180), seconds and errors with 6 digits.
+/// One row per point, after a row of names; comma-separated (RFC 4180), seconds and errors with 6 digits.
 std::string toCsv(std::span<const Point> points);
 
 } // namespace slant

@@ -26,15 +26,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kPicturedSpp = 8;   ///< methods are shown from so many samples, if they are in the sweep
+constexpr int kPicturedSpp = 8;   ///< pictures of methods are from this many samples, if the sweep has them
 constexpr double kMapScale = 0.4; ///< FLIP that is the brightest colour of the maps
 
 int halved(int pixels) {
     return (pixels + 1) / 2;
 }
 
-/// The scene on half as many pixels in both directions; of odd numbers the last half pixel becomes a whole
-/// one, and the screen window grows by it.
+/// The scene at half the resolution in both directions; if a size is odd, the last half pixel becomes a whole
+/// one and the screen window grows by it.
 void halve(Scene& scene) {
     Film& film = scene.film;
     PerspectiveCamera& camera = scene.camera;
@@ -97,7 +97,7 @@ private:
                 }
     }
 
-    // Work is counted in samples, traced or put out, of which all cost about the same.
+    // Work is counted in samples, traced or reconstructed, which all cost about the same.
 
     std::uint64_t shareOf(const Scene& scene, std::uint64_t samplesPerPixel, int runs) const {
         return scene.film.crop.area() * samplesPerPixel * std::uint64_t(runs);

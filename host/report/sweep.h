@@ -12,14 +12,14 @@
 
 namespace slant {
 
-/// Lists are not empty, without doubles, numbers ascending.
+/// Lists are not empty and have no duplicates; numbers ascend.
 struct SweepOptions {
     std::vector<std::string> scenes; ///< pbrt files; their names without folder and extension differ
     std::vector<Method> methods;
-    std::vector<int> samples;         ///< input samples a pixel
-    std::vector<int> outputs;         ///< output samples a pixel, powers of two
+    std::vector<int> samples;         ///< input samples per pixel
+    std::vector<int> outputs;         ///< output samples per pixel, powers of two
     std::vector<std::string> devices; ///< as Backend takes them
-    int repeat = 3;                   ///< timed runs of a point
+    int repeat = 3;                   ///< timed runs per point
     int truthSpp = 4096;              ///< at least 64
     bool halfSize = false;            ///< half the resolution in both directions
     std::uint64_t seed = 0;
@@ -30,9 +30,9 @@ struct SweepOptions {
 };
 
 /// `known` are points of earlier runs: those of equal key are taken over as they are. `onPoint` is called
-/// whenever a point was measured, with all that there are so far, so that an interrupted run can go on.
-/// Circumstances are left to the caller. One stage of the monitor. Throws Error as readScene, Backend,
-/// Tracer, groundTruth and the reconstruction do.
+/// after each measured point with all results so far, so that an interrupted run can go on. The caller fills
+/// in the circumstances. One stage of the monitor. Throws Error as readScene, Backend, Tracer, groundTruth
+/// and the reconstruction do.
 Results runSweep(const SweepOptions& options, const std::vector<Point>& known,
                  const std::function<void(const Results&)>& onPoint, Monitor& monitor);
 

@@ -19,7 +19,7 @@ inline double medianOf(std::vector<double> values) {
     return values.size() % 2 ? values[half] : (values[half - 1] + values[half]) / 2;
 }
 
-/// A run that takes this long needs no other one to warm up or to even out.
+/// A run that takes this long needs neither a warm-up nor repetitions.
 inline constexpr double kLongRunSeconds = 10;
 
 /// Runs `work` once to warm up and then `repeat` times with the clock; if the first run is long, it counts.

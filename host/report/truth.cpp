@@ -13,9 +13,9 @@
 namespace slant {
 namespace {
 
-constexpr int kProbeRows = 16; ///< every so many rows of the film are probed
+constexpr int kProbeRows = 16; ///< one in this many rows of the film is probed
 
-/// Another seed than that of the runs which are measured against the truth.
+/// A seed that differs from those of the runs that are measured against the truth.
 std::uint64_t truthSeed(std::uint64_t seed) {
     return seed ^ 0x9e3779b97f4a7c15;
 }
@@ -78,7 +78,7 @@ Image groundTruth(Scene scene, const Tracer& tracer, const std::string& contentK
 }
 
 std::string defaultCacheDirectory() {
-    // The specification has relative paths ignored.
+    // The specification says to ignore relative paths.
     if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache == '/')
         return (std::filesystem::path(cache) / "slant").string();
     if (const char* home = std::getenv("HOME"); home && *home)

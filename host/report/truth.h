@@ -10,15 +10,15 @@
 
 namespace slant {
 
-/// A digest of all that decides the picture of a scene: the contents of its files, its film and filter, and
-/// what this tracer makes of some of its pixels, so that another tracer has another key. Throws
+/// A digest of all that determines the picture of a scene: the contents of its files, its film and filter,
+/// and the result of this tracer for some of its pixels, so that a changed tracer has another key. Throws
 /// Error(badInput) if a file of the scene cannot be read any more.
 std::string contentKey(const Scene& scene, const Tracer& tracer);
 
-/// Brute force at `spp` samples, from `directory` where an earlier run has left it; else it is made (one
-/// stage of the monitor) and left there, as an EXR of 32-bit floats. Its samples share nothing with those of
-/// any run whose seed is `seed`. A damaged file is made again, with a warning. Throws Error(resources) if the
-/// directory cannot be written.
+/// Brute force at `spp` samples per pixel: read from `directory` if an earlier run has left it there, else
+/// made (one stage of the monitor) and kept there as an EXR of 32-bit floats. Its samples share nothing with
+/// those of any run whose seed is `seed`. A damaged file is made again, with a warning. Throws
+/// Error(resources) if the directory cannot be written.
 Image groundTruth(Scene scene, const Tracer& tracer, const std::string& contentKey, int spp,
                   std::uint64_t seed, const std::string& directory, Monitor& monitor);
 

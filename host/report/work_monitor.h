@@ -1,4 +1,4 @@
-// Progress of work within work.
+// Progress of nested work.
 #pragma once
 #include "base/monitor.h"
 
@@ -10,9 +10,9 @@
 
 namespace slant {
 
-/// Stands between nested work and the monitor of the whole: stages of the nested work vanish, and its
-/// progress counts towards a share of the whole that was announced before, never more and in the end never
-/// less. Each warning is passed on once.
+/// Stands between nested work and the monitor of the whole: it hides the stages of the nested work, and
+/// counts their progress towards a share of the whole that was announced before: never more, and in the end
+/// never less. Each warning is passed on once.
 class WorkMonitor final : public Monitor {
 public:
     /// `whole` must outlive it and have a stage running while work is done.

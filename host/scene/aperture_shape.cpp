@@ -15,12 +15,12 @@ namespace slant {
 namespace {
 
 constexpr int kSectors = ApertureShape::kSectors, kRings = ApertureShape::kRings, kMaxBlades = 100;
-/// Looks at an image in each cell, along both directions.
+/// Lookups into an image per cell, along each direction.
 constexpr int kLooks = 8;
 constexpr std::string_view kImagePrefix = "image ", kPolygonPrefix = "polygon";
 constexpr std::string_view kHexDigits = "0123456789abcdef";
 
-/// Corners at these radii in turn, from the top counter-clockwise.
+/// Corners at these radii alternately, counter-clockwise from the top.
 std::vector<glm::dvec2> corners(int count, double radius, double otherRadius, double degrees) {
     std::vector<glm::dvec2> rim;
     for (int i = 0; i < count; ++i) {
@@ -151,7 +151,7 @@ ApertureShape readAperture(const std::string& text, const std::string& directory
     const std::string path = (std::filesystem::path(directory) / text).string();
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored))
-        throw badInput(where, "aperture \"{}\" is none of {} and no image file{}", printable(text),
+        throw badInput(where, "aperture \"{}\" is not one of {}, nor an image file{}", printable(text),
                        fmt::join(kNames, ", "), didYouMean(text, kNames));
     return apertureOfImage(readImageFile(path, {}, true, where), where);
 }

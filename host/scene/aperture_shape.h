@@ -2,10 +2,10 @@
 //
 //     disc | gaussian | square | pentagon | star | polygon BLADES [DEGREES] | image WEIGHTS
 //
-// The second to fifth are those of pbrt-v4's realistic camera, of the same sizes. A polygon is regular, with
-// its corners on the rim of the lens, one of them at the top, or turned counter-clockwise by DEGREES. Shapes
-// stand upright in the blur of what lies behind the plane in focus. An image covers the square around the
-// disc, and is cut to the disc.
+// The second to fifth are those of pbrt-v4's realistic camera, with the same sizes. A polygon is regular,
+// with its corners on the rim of the lens, one of them at the top, or turned counter-clockwise by DEGREES.
+// Shapes stand upright in the blur of what lies behind the plane in focus. An image covers the square around
+// the disc, and is cut to the disc.
 #pragma once
 #include "base/error.h"
 #include "image/image.h"
@@ -27,7 +27,7 @@ struct ApertureShape {
     /// Sectors of the disc and rings in each, both evenly spaced: the cells of the weights.
     static constexpr int kSectors = kApertureSectors, kRings = kApertureRings;
 
-    std::string name = "disc"; ///< as above, but "image" without its weights
+    std::string name = "disc"; ///< as above, but just "image" without its weights
     /// Corners of an outline around the centre; the triangles between it and each side have the same area.
     std::vector<glm::dvec2> rim;
     /// Of the light that passes, sector by sector from the right clockwise, from the centre outwards: at

@@ -1,4 +1,4 @@
-// What AttributeBegin keeps and AttributeEnd brings back.
+// What AttributeBegin saves and AttributeEnd restores.
 #pragma once
 #include "scene/parameters.h"
 #include "scene/transforms.h"

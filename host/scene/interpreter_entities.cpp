@@ -99,7 +99,7 @@ void Interpreter::option(Tokenizer& tokens, const Position&) {
         throw badInput(name.position, "unknown option {}{}", name.shown(), didYouMean(key, names));
     }
     if (known->effect == OptionEffect::unlessFalse && value.text != "false")
-        throw badInput(value.position, "option {} is not supported but as false", name.shown());
+        throw badInput(value.position, "option {} is supported only as false", name.shown());
 }
 
 void Interpreter::colorSpace(Tokenizer& tokens, const Position&) {

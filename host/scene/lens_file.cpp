@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kMaxSurfaces = 1000;
 constexpr double kMaxMillimetres = 1e6;
 constexpr double kMaxIndex = 10;
-constexpr int kHeights = 64; ///< at which neighbouring surfaces are held against each other
+constexpr int kHeights = 64; ///< at which neighbouring surfaces are compared
 
 /// How far a surface at height h lies behind its vertex, towards the film.
 double sag(const LensSurface& surface, double h) {

@@ -11,7 +11,7 @@ namespace {
 constexpr std::string_view kKinds[] = {"point", "distant", "infinite"};
 constexpr std::string_view kAreaKinds[] = {"diffuse"};
 
-/// Without the parameter a light has the colour space's white at luminance 1, as pbrt has it.
+/// Without the parameter a light has the colour space's white at luminance 1, as in pbrt.
 glm::vec3 emission(ParameterList& parameters, std::string_view name) {
     const Parameter* parameter = findSpectrum(parameters, name);
     return parameter ? spectrumValue(*parameter, SpectrumUse::illuminant) : glm::vec3(1);

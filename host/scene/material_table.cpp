@@ -9,7 +9,8 @@ namespace {
 
 constexpr std::string_view kKinds[] = {"diffuse", "coateddiffuse", "conductor"};
 
-// pbrt's limits of the random walk in a coating have none; these keep a sample's cost bounded.
+// pbrt does not limit these parameters of the random walk in a coating; these bounds limit the cost of a
+// sample.
 constexpr int kMaxLayerDepth = 1000, kMaxLayerSamples = 1000;
 
 void readRoughness(Material& material, ParameterList& parameters, TextureTable& textures) {

@@ -45,7 +45,7 @@ Rect pixelBounds(const Film& film, ParameterList& parameters, Monitor& monitor) 
     return asked.intersect(whole);
 }
 
-/// In floats as pbrt, so that the bounds round to the same pixels.
+/// In floats like pbrt, so that the bounds round to the same pixels.
 Rect cropped(const Film& film, const std::vector<float>& window, const Position& where) {
     if (window.size() != 4) throw badInput(where, "'cropwindow' needs four numbers: x0, x1, y0, y1");
     const auto pixel = [](int resolution, float a) {

@@ -12,7 +12,7 @@ class Monitor;
 class SceneFiles;
 
 /// Keeps the directives (the last of each kind counts, as in pbrt) until all are known, since the camera's
-/// defaults hang on the film's size and the film's exposure on the camera's shutter.
+/// defaults depend on the film's size and the film's exposure on the camera's shutter.
 class OptionBlock {
 public:
     /// `directive` is Film, PixelFilter, Camera, Sampler or Integrator.

@@ -34,7 +34,7 @@ const Type& typeOf(const std::string& name, const Position& position) {
         if (type.name == name) return type;
     for (const auto& [old, current] : kRenamed)
         if (name == old)
-            throw badInput(position, "parameter type '{}' is not of pbrt-v4; did you mean '{}'?", name,
+            throw badInput(position, "parameter type '{}' is not from pbrt-v4; did you mean '{}'?", name,
                            current);
     std::vector<std::string_view> names;
     for (const Type& type : kTypes) names.push_back(type.name);

@@ -1,5 +1,5 @@
-// Parameter lists of directives: `"type name" values...`, typed look-ups with defaults, and the rule that a
-// parameter which nobody asked for is an error.
+// Parameter lists of directives: `"type name" values...`, typed look-ups with defaults, and the rule that an
+// unused parameter is an error.
 #pragma once
 #include "scene/tokenizer.h"
 
@@ -39,9 +39,9 @@ struct Range {
 inline constexpr Range kPositive{0, std::numeric_limits<double>::infinity(), true};
 inline constexpr Range kNonNegative{0, std::numeric_limits<double>::infinity(), false};
 
-/// The parameters of one directive, with the Attribute defaults behind them. As in pbrt the last of several
-/// with one name counts, and a default only where the directive has none. Look-ups throw Error(badInput)
-/// with the place of the parameter.
+/// The parameters of one directive, with the Attribute defaults behind them. As in pbrt, the last of several
+/// with the same name counts, and a default only applies if the directive has none. Look-ups throw
+/// Error(badInput) with the place of the parameter.
 class ParameterList {
 public:
     using Types = std::initializer_list<std::string_view>;
@@ -75,7 +75,7 @@ public:
 
     /// Accepts parameters that cannot change the picture.
     void ignore(Types names);
-    /// Throws at the first parameter that nobody asked for.
+    /// Throws at the first unused parameter.
     void finish() const;
 
 private:

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kMaxVertices = std::numeric_limits<std::int32_t>::max();
 
-/// What becomes of a vertex property: an offset in VertexRow, or -1 for nothing.
+/// Where a vertex property goes: an offset in VertexRow, or -1 if it is dropped.
 enum VertexField { x, y, z, nx, ny, nz, u, v, fieldCount };
 using VertexRow = std::array<double, fieldCount>;
 
@@ -124,7 +124,7 @@ Faces readFaces(const PlyElement& element, std::size_t vertexCount, PlyInput& in
 }
 
 void skipElement(const PlyElement& element, PlyInput& input) {
-    if (element.properties.empty()) return; // of no size, whatever the count
+    if (element.properties.empty()) return; // takes no bytes, whatever the count
     for (std::size_t i = 0; i < element.count; ++i)
         for (const PlyProperty& property : element.properties) input.skip(property);
 }

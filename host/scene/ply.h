@@ -8,7 +8,7 @@
 
 namespace slant {
 
-/// Faces of 3 become triangles, of 4 bilinear patches (pbrt keeps quads so); others are counted and skipped.
+/// Faces of 3 vertices become triangles, of 4 bilinear patches (as in pbrt); others are counted and skipped.
 /// Both meshes hold all vertices of the file. Normals are nx ny nz, texture coordinates u v, s t, texture_u
 /// texture_v or texture_s texture_t.
 struct PlyMeshes {

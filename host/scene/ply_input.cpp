@@ -60,7 +60,7 @@ PlyInput::PlyInput(std::string_view bytes, const std::string& name) : bytes_(byt
 Error PlyInput::error(const std::string& message) const {
     if (!inHeader_ && format_ != Format::ascii)
         return badInput({name_, 0, 0}, "{} (at byte {})", message, offset_);
-    // What is wrong ends just before the offset; a header line also takes its line break.
+    // The error ends just before the offset, which for a header line lies past its line break.
     const std::size_t end = offset_ - (inHeader_ && offset_ > 0 && bytes_[offset_ - 1] == '\n' ? 1 : 0);
     return badInput(
         {name_, 1 + int(std::count(bytes_.begin(), bytes_.begin() + std::ptrdiff_t(end), '\n')), 0}, "{}",
@@ -95,7 +95,7 @@ void PlyInput::readElement(std::string_view words) {
     const std::string_view count = takeWord(words);
     const auto [end, status] = std::from_chars(count.data(), count.data() + count.size(), element.count);
     if (element.name.empty() || status != std::errc() || end != count.data() + count.size())
-        throw error(fmt::format("'{}' is no number of elements", printable(count)));
+        throw error(fmt::format("'{}' is not a number of elements", printable(count)));
     elements_.push_back(std::move(element));
 }
 
@@ -121,7 +121,7 @@ void PlyInput::readProperty(std::string_view words) {
 }
 
 void PlyInput::readHeader() {
-    if (bytes_.substr(0, 3) != "ply" || line() != "ply") throw error("this is no PLY file");
+    if (bytes_.substr(0, 3) != "ply" || line() != "ply") throw error("this is not a PLY file");
     bool hasFormat = false;
     for (std::size_t items = 0;; ++items) {
         std::string_view words = line();

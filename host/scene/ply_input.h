@@ -1,4 +1,4 @@
-// The header of a PLY file and its numbers, whatever they are written in.
+// The header of a PLY file and its numbers, in whatever format they are written.
 #pragma once
 #include "base/error.h"
 

@@ -1,4 +1,4 @@
-// A place in scene text, cheap enough to ride along with every token and parameter.
+// A place in scene text, cheap enough to store with every token and parameter.
 #pragma once
 #include "base/error.h"
 

@@ -1,4 +1,4 @@
-// Reads pbrt-v4 scene text of the supported subset (README, "Scene files").
+// Reads pbrt-v4 scene text of the supported subset (scenes/README.md).
 #pragma once
 #include "scene/scene.h"
 
@@ -13,7 +13,7 @@ class Monitor;
 /// change the picture is ignored, what might surprise goes to `monitor.warn`.
 Scene readScene(const std::string& path, Monitor& monitor);
 
-/// The same for text in memory; `name` stands for the file in messages and gives the directory.
+/// The same for text in memory; `name` replaces the file name in messages and gives the directory.
 Scene readSceneText(const std::string& text, const std::string& name, Monitor& monitor);
 
 } // namespace slant

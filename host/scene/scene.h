@@ -61,14 +61,14 @@ struct PerspectiveCamera {
 
 /// One surface of a lens; millimetres.
 struct LensSurface {
-    double radius; ///< of curvature, positive if its centre lies towards the film; 0: the plane of the stop
+    double radius; ///< of curvature, positive if the centre lies towards the film; 0: the plane of the stop
     double thickness; ///< distance on the axis to the next surface, towards the film
     double index;     ///< of refraction between it and the next one
     double diameter;  ///< clear
     int line = 0;     ///< of the file
 };
 
-/// A lens from front (scene) to rear (film), with the promises of scene/lens_file.h.
+/// A lens from front (scene) to rear (film), valid as scene/lens_file.h says.
 struct LensPrescription {
     std::string path; ///< for messages
     std::vector<LensSurface> surfaces;
@@ -114,7 +114,7 @@ struct Texture {
 
 enum class MaterialKind { diffuse, coatedDiffuse, conductor };
 
-/// Parameters are texture indices (constants are textures too); those that a kind does not have are -1.
+/// Parameters are texture indices (constants are textures too), -1 for those that a kind does not have.
 struct Material {
     MaterialKind kind = MaterialKind::diffuse;
     int reflectance = -1;                 ///< diffuse, coatedDiffuse; conductor: instead of eta, k
@@ -136,7 +136,7 @@ struct Mesh {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
     std::vector<glm::vec2> uvs;
-    std::vector<std::uint32_t> indices; ///< 3 a triangle; 4 a bilinear patch (p00, p10, p01, p11)
+    std::vector<std::uint32_t> indices; ///< 3 per triangle; 4 per bilinear patch (p00, p10, p01, p11)
 };
 
 enum class ShapeKind { mesh, sphere, disk };

@@ -30,7 +30,7 @@ public:
     z_stream stream{};
 };
 
-/// One or several gzip members. The output grows with what is really there: no size in a header is believed.
+/// One or several gzip members. The output grows with the actual data: sizes in headers are not trusted.
 std::string unpack(const std::string& packed, const std::string& path, const FileLocation& where) {
     Inflater inflater;
     z_stream& stream = inflater.stream;

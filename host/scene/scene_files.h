@@ -1,4 +1,4 @@
-// The files that a scene names: where they lie, and each read once.
+// The files that a scene names: where they are, and that each is read once.
 #pragma once
 #include "scene/position.h"
 #include "scene/scene.h"

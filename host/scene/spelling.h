@@ -1,4 +1,4 @@
-// Words of a file in messages about it.
+// Text from a file, for messages about it.
 #pragma once
 #include <string>
 #include <string_view>

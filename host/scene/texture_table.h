@@ -30,7 +30,7 @@ public:
     int spectrumTexture(ParameterList& parameters, std::string_view name, SpectrumUse use,
                         std::optional<glm::vec3> fallback);
 
-    /// Builds what nobody named too, so that its errors are found.
+    /// Builds unused textures too, so that their errors are found.
     void buildAll();
 
 private:

@@ -38,7 +38,7 @@ char unescape(char c, const Position& position) {
     }
 }
 
-/// std::from_chars knows no leading plus sign.
+/// std::from_chars does not accept a leading plus sign.
 std::string_view withoutPlus(std::string_view text) {
     return text.size() > 1 && text[0] == '+' && text[1] != '-' ? text.substr(1) : text;
 }
@@ -143,7 +143,7 @@ double numberOf(const Token& token) {
     if (token.kind != TokenKind::word || end != text.data() + text.size() ||
         status == std::errc::invalid_argument)
         throw badInput(token.position, "expected a number, found {}", token.shown());
-    // from_chars leaves the value alone where it over- or underflows; strtod tells the two apart.
+    // from_chars does not set the value on overflow or underflow; strtod distinguishes the two.
     if (status == std::errc::result_out_of_range) value = std::strtod(std::string(text).c_str(), nullptr);
     if (!(std::abs(value) <= std::numeric_limits<float>::max()))
         throw badInput(token.position, "{} is not a finite number in the range of a float", token.shown());

@@ -11,13 +11,14 @@ namespace slant {
 
 enum class TokenKind { word, string, open, close, end };
 
-/// `text` of a string is without its quotes, escapes resolved. Valid as long as the Tokenizer and its text.
+/// The `text` of a string has no quotes, and escapes are resolved. Valid as long as the Tokenizer and its
+/// text.
 struct Token {
     TokenKind kind = TokenKind::end;
     std::string_view text;
     Position position;
 
-    /// What to call it in a message.
+    /// Its name in messages.
     std::string shown() const;
 };
 

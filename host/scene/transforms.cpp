@@ -35,8 +35,9 @@ glm::dmat4 affine(const glm::dmat4& matrix, const Position& where) {
     for (int column = 0; column < 4; ++column) {
         const double expected = column == 3 ? 1 : 0;
         if (!(std::abs(matrix[column][3] - expected) <= kAffineTolerance))
-            throw badInput(where, "this matrix is no affine transform: its 4th, 8th, 12th and 16th number "
-                                  "must be 0, 0, 0 and 1");
+            throw badInput(where,
+                           "this matrix is not an affine transform: its 4th, 8th, 12th and 16th number "
+                           "must be 0, 0, 0 and 1");
         result[column][3] = expected;
     }
     return result;

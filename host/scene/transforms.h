@@ -10,7 +10,7 @@ namespace slant {
 /// Which times of a MovingTransform the transform directives change (ActiveTransform).
 enum class ActiveTransform { all, start, end };
 
-/// `degrees` about `axis` (any length but 0), by the right-hand formula, as pbrt has it.
+/// Rotates by `degrees` about `axis` (any length but 0), by the right-hand formula, as in pbrt.
 glm::dmat4 rotation(double degrees, const glm::dvec3& axis);
 
 /// pbrt's LookAt: camera space (x right, y up, z forward; left-handed) from world space. Throws

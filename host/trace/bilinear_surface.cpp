@@ -8,8 +8,7 @@
 namespace slant {
 namespace {
 
-/// Patches reach this much farther than their edges, so that no ray slips between neighbours through
-/// rounding.
+/// Patches extend this far beyond their edges, so that no ray slips between neighbours because of rounding.
 constexpr double kSeam = 1e-9;
 
 /// Real roots of a u^2 + b u + c = 0, without cancellation; false if there are none.
@@ -75,8 +74,7 @@ Box BilinearSurface::bounds(std::uint32_t primitive) const {
 SurfaceLocation BilinearSurface::locate(const FoundHit& found, const SurfaceRay& ray) const {
     auto location = intersect(meshPrimitive(found.primitive), ray, std::numeric_limits<double>::infinity());
     if (location) return *location;
-    // Embree met by a hair what is missed here: its rays of instances are rounded, and so are triangles'
-    // edges.
+    // Embree just hit what this test misses: it rounds rays in instances, and the edges of triangles.
     if (!flat()) return {found.t, found.local};
     glm::vec2 b = found.barycentric; // of (0, 0), (1, 0), (1, 1) or (0, 0), (1, 1), (0, 1)
     return {found.t,

@@ -5,7 +5,7 @@
 namespace slant {
 namespace {
 
-/// The largest number below pixel + 1: raster positions stay in their pixel also after rounding.
+/// The largest number below pixel + 1: keeps raster positions in their pixel after rounding.
 float lastOfPixel(int pixel) {
     return std::nextafter(float(pixel + 1), -std::numeric_limits<float>::infinity());
 }
@@ -54,7 +54,7 @@ void BlockTracer::generate(int sample) {
             s.v = seen.lens.y;
             s.t = point.t;
             weights_[lane] = seen.weight;
-            // Where the lens lets nothing through, the film is black, in focus.
+            // Where the lens lets nothing through, the film is black and in focus.
             const float tMax = seen.weight > 0 ? std::numeric_limits<float>::infinity() : 0;
             rays_[lane] = {seen.ray.origin, seen.ray.direction, tMax, point.t};
         }

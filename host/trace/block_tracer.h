@@ -11,7 +11,7 @@
 namespace slant {
 
 /// Pixels of a block are traced together, all with the same sample index. Blocks lie on a fixed grid of the
-/// raster and are traced whole, so that the company a ray keeps does not depend on the rectangle asked for.
+/// raster and are traced whole, so that the rays traced together do not depend on the requested rectangle.
 constexpr int kBlockSize = 4;
 
 /// What one call of Tracer::trace works on (tracer.h).

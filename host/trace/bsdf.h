@@ -1,8 +1,9 @@
-// How a point of a surface scatters light: one plain struct with a switch over kinds, made for one outgoing
-// direction, so that whatever depends on that direction alone is computed once.
+// How a point on a surface scatters light: one plain struct with a switch over kinds, made for one outgoing
+// direction, so that what depends on that direction alone is computed once.
 //
-// pbrt-v4's shading frame decides alone which side a direction is on; all kinds reflect only, alike on both
-// sides. Values are densities over solid angle times |cos| of the incident direction to the shading normal.
+// As in pbrt-v4, the shading frame alone decides which side a direction is on; all kinds only reflect, in the
+// same way on both sides. Values are densities over solid angle times |cos| of the incident direction to the
+// shading normal.
 #pragma once
 #include "trace/coat.h"
 #include "trace/microfacet.h"
@@ -12,7 +13,7 @@ namespace slant {
 struct BsdfSample {
     glm::vec3 direction{0, 0, 1}; ///< unit, world space
     glm::vec3 weight{0};          ///< value * cos / density
-    float pdf = 0;                ///< density over solid angle; of no meaning if specular
+    float pdf = 0;                ///< density over solid angle; meaningless if specular
     bool specular = false;        ///< a mirror direction: no other strategy can find it
 };
 
@@ -40,7 +41,7 @@ public:
     bool hasTwoLobes() const { return kind_ == Kind::smoothCoat || kind_ == Kind::roughCoat; }
     /// Some light leaves in a mirror direction.
     bool hasMirror() const { return kind_ == Kind::smoothCoat || kind_ == Kind::mirror; }
-    /// A peaked lobe: sampling lights alone would be noisy, so that strategies must be combined.
+    /// A peaked lobe: sampling lights alone would be noisy, so strategies must be combined.
     bool glossy() const { return kind_ == Kind::conductor || kind_ == Kind::roughCoat; }
 
     /// Value * cos for light from wi (unit, world space), without mirror lobes.
@@ -68,7 +69,7 @@ private:
     glm::vec3 normal_{0}, wo_{0};
     float cosineOut_ = 0;
     glm::vec3 colour_{0}; ///< diffuse: reflectance; coats: base factor times T(wo)
-    // The rest is set for those kinds only that read it.
+    // The rest is set only for the kinds that read it.
     glm::vec3 eta_, k_;
     Microfacets facets_;
     Frame frame_;

@@ -5,7 +5,7 @@ namespace {
 
 constexpr int kCosines = 64;    ///< columns of the table
 constexpr int kAlphas = 17;     ///< rows, where roughness varies
-constexpr int kNormals = 24;    ///< microfacet normals a dimension in the integrals
+constexpr int kNormals = 24;    ///< microfacet normals per dimension in the integrals
 constexpr int kDirections = 64; ///< directions inside in the integral for the internal albedo
 
 /// Light that crosses the gap at this cosine.

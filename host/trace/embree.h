@@ -1,5 +1,5 @@
 // The one place that includes Embree: hides the differences between versions 3 and 4. Rays are not declared
-// coherent: that gains little on packets of 16, and Embree 3.13 then hangs in occlusion tests of instances.
+// coherent: that gains little for packets of 16, and Embree 3.13 then hangs in occlusion tests of instances.
 #pragma once
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>

@@ -37,7 +37,7 @@ struct Emitter {
     enum class Shape { point, triangle, patch, sphere, quadric };
     Shape shape = Shape::point;
     bool twoSided = false;
-    bool sampled = true;          ///< false: found by rays only
+    bool sampled = true;          ///< false: only rays find it
     glm::vec3 radiance{0};        ///< point: intensity
     glm::vec3 origin{0};          ///< point, first vertex or centre
     glm::vec3 edge1{0}, edge2{0}; ///< to the second and third vertex (patch: p10, p01)
@@ -49,7 +49,7 @@ struct Emitter {
     float size2 = 0; ///< triangle: square of the longest edge
     int quadric = -1;
 
-    /// One that is not bounded is sampled by area: fine from afar, noisy from nearby.
+    /// A light that is not bounded is sampled by area: fine from far away, noisy from nearby.
     bool bounded() const { return shape != Shape::patch && shape != Shape::quadric; }
 };
 

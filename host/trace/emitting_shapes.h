@@ -1,4 +1,5 @@
-// Area lights: turns the shapes of a scene that emit into emitters, one or two a triangle, patch or quadric.
+// Area lights: turns the shapes of a scene that emit into emitters, one or two per triangle, patch or
+// quadric.
 #pragma once
 #include "scene/scene.h"
 #include "trace/emitter.h"
@@ -8,7 +9,7 @@ namespace slant {
 /// Where the pieces of one shape with an area light lie among the emitters.
 struct EmittingShape {
     int first;
-    bool patches; ///< two pieces a primitive: the halves beside p10-p01 of a flat patch, or the patch twice
+    bool patches; ///< two pieces per primitive: the halves beside p10-p01 of a flat patch, or the patch twice
 };
 
 struct EmittingShapes {

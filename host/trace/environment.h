@@ -1,6 +1,6 @@
 // Light from an infinitely distant sphere: the same from everywhere, or an equal-area octahedral image.
 //
-// A receiver samples it by one mixture: with chance `imageChance` a texel in proportion to how much it
+// A receiver samples it by one mixture: with chance `imageChance_` a texel in proportion to how much it
 // exceeds the mean of the image, else a direction in proportion to the cosine to its normal. The estimate of
 // the irradiance stays bounded, for flat skies and for suns, without a second strategy.
 #pragma once
@@ -41,7 +41,7 @@ private:
     float meanLevel_ = 0;
     float excessSum_ = 0;          ///< of all texels
     std::vector<float> rowCdf_;    ///< size_ entries: excess of rows 0..y, over the sum
-    std::vector<float> columnCdf_; ///< size_ entries a row, over the row's sum
+    std::vector<float> columnCdf_; ///< size_ entries per row, over the row's sum
 };
 
 } // namespace slant

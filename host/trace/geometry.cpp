@@ -27,7 +27,7 @@ using DevicePointer = std::unique_ptr<RTCDeviceTy, DeviceDeleter>;
 using ScenePointer = std::unique_ptr<RTCSceneTy, SceneDeleter>;
 using GeometryPointer = std::unique_ptr<RTCGeometryTy, GeometryDeleter>;
 
-/// Throws what Embree has noted since the last call.
+/// Throws the error that Embree has recorded since the last call.
 void check(RTCDevice device) {
     RTCError code = rtcGetDeviceError(device);
     if (code == RTC_ERROR_NONE) return;
@@ -246,7 +246,7 @@ glm::dmat3 absolute(const glm::dmat3& m) {
 /// From the instance's space to the world.
 void transformHit(const Instance& instance, SurfaceHit& hit) {
     glm::dvec3 local(hit.position), world = instance.linear * local + instance.offset;
-    // Embree takes rays to the instance's space in float: the error of that, seen from the world.
+    // Embree transforms rays to the instance's space in float: the error of that, in world space.
     glm::dvec3 sizes = absolute(instance.inverseLinear) * (glm::abs(world) + glm::abs(instance.offset));
     glm::dvec3 localError = glm::dvec3(hit.positionError) + double(gammaBound(5)) * sizes;
     hit.position = world;
@@ -287,7 +287,7 @@ RTCRay singleRay(const Ray& ray) {
     return out;
 }
 
-/// Lanes without a ray, or with one that is to be left out, are not valid.
+/// Lanes without a ray, or with a ray to skip, are not valid.
 void fillPacket(std::span<const Ray> rays, RTCRay16& packet, int* valid) {
     for (std::size_t i = 0; i < kPacket; ++i) {
         const Ray& ray = rays[i < rays.size() ? i : 0];

@@ -1,4 +1,4 @@
-// The surfaces of a scene and the rays that meet them: Embree finds the primitive, our own arithmetic
+// The surfaces of a scene and the rays that hit them: Embree finds the primitive, our own arithmetic
 // (surface.h) the point on it. Only geometry.cpp and embree.h include Embree.
 #pragma once
 #include "base/monitor.h"

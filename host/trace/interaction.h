@@ -63,7 +63,8 @@ inline glm::vec3 offsetRayOrigin(glm::vec3 position, glm::vec3 positionError, gl
     return origin;
 }
 
-/// A point of object space in world space; every user of a shape's vertices must round them alike.
+/// Transforms a point from object space to world space; every user of a shape's vertices must round them
+/// alike.
 inline glm::vec3 transformPoint(const glm::dmat4& worldFromObject, glm::vec3 p) {
     return glm::vec3(worldFromObject * glm::dvec4(p, 1.0));
 }

@@ -3,13 +3,13 @@
 // of Many Lights with Adaptive Tree Splitting", without the splitting; importance as in pbrt-v4, Physically
 // Based Rendering, 4th edition, section 12.6.3).
 //
-// An emitter that can contribute anything has a chance above zero.
+// Every emitter that can contribute has a chance above zero.
 #pragma once
 #include "trace/emitter.h"
 
 namespace slant {
 
-/// What is known of an emitter, or of a group of them, when choosing.
+/// What is known about an emitter, or a group of them, when choosing.
 struct LightBounds {
     glm::vec3 low{0}, high{0}; ///< box of positions
     glm::vec3 axis{0, 0, 1};   ///< emitting normals lie within an angle around it

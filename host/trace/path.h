@@ -2,7 +2,7 @@
 // means it (maxdepth 1 = direct light; light seen directly or in a mirror always counts; mirror bounces
 // count).
 //
-// It is written as one step a vertex, so that a caller can trace many paths at once:
+// It is written as one step per vertex, so that a caller can trace many paths at once:
 //
 //     startPath -> repeat: intersect state.ray, scatter, add shadow.contribution unless occluded; while
 //     scatter is true
@@ -28,7 +28,7 @@ struct Shading {
     Lights lights;
 };
 
-/// Light that arrives if nothing is in the way.
+/// Light that arrives unless something is in the way.
 struct ShadowRay {
     Ray ray;
     glm::vec3 contribution{
@@ -39,7 +39,7 @@ struct ShadowRay {
 
 /// A path under way.
 struct PathState {
-    /// How the ray left its origin: what the light that it meets counts.
+    /// How the ray left its origin: this decides the weight of light that it meets.
     enum class Origin { camera, diffuse, glossy };
 
     Ray ray; ///< to be intersected next

@@ -21,7 +21,7 @@ Pattern::Pattern(int samplesPerPixel, std::uint64_t seed)
     : samplesPerPixel_(std::uint32_t(samplesPerPixel)),
       seed_(hashWords(std::uint32_t(seed), std::uint32_t(seed >> 32))) {
     if (samplesPerPixel < 1 || samplesPerPixel > kMaxSamplesPerPixel)
-        throw Error(ErrorCode::usage, fmt::format("{} samples a pixel: must be between 1 and {}",
+        throw Error(ErrorCode::usage, fmt::format("{} samples per pixel: must be between 1 and {}",
                                                   samplesPerPixel, kMaxSamplesPerPixel));
 }
 
@@ -30,7 +30,7 @@ PatternPixel Pattern::pixel(int x, int y) const {
     std::uint32_t tileSeed =
         hashWords(hashWords(seed_, std::uint32_t(x >> kTileBits)), std::uint32_t(y >> kTileBits));
     std::uint32_t morton = spread(std::uint32_t(x & kMask)) | (spread(std::uint32_t(y & kMask)) << 1);
-    // Shuffled as a tree, so that blocks of the curve stay blocks.
+    // Shuffled hierarchically, so that blocks of the curve stay blocks.
     constexpr int kUnusedBits = 32 - 2 * kTileBits;
     std::uint32_t rank =
         reverseBits(scrambleReversed(reverseBits(morton << kUnusedBits), tileSeed)) >> kUnusedBits;

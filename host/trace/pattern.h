@@ -4,7 +4,7 @@
 // Samples of a pixel are consecutive points of one long (0,2)-sequence; pixels take their turns along a
 // shuffled Morton curve, so that neighbouring pixels complement each other in every pair of dimensions (after
 // Ahmed and Wonka, "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error via Hierarchical Ordering
-// of Pixels", 2020; with runs of any length instead of powers of two, so that any number of samples a pixel
+// of Pixels", 2020; with runs of any length instead of powers of two, so that any number of samples per pixel
 // works). Pairs of dimensions are Sobol' points after Owen scrambling by hashes (Burley, "Practical
 // Hash-based Owen Scrambling", 2020; hash constants by N. Vegdahl, 2021).
 #pragma once

@@ -61,7 +61,7 @@ std::optional<SurfaceLocation> QuadricSurface::intersect(std::uint32_t, const Su
 std::optional<SurfaceLocation> QuadricSurface::intersectSphere(const SurfaceRay& ray, double tMax) const {
     glm::dvec3 o = ray.origin, d = ray.direction;
     double a = glm::dot(d, d), b = glm::dot(o, d);
-    // The discriminant from the distance of the line to the centre: no cancellation for far origins.
+    // Computes the discriminant from the line's distance to the centre: no cancellation for distant origins.
     glm::dvec3 nearest = o - (b / a) * d;
     double discriminant = radius_ * radius_ - glm::dot(nearest, nearest);
     if (!(discriminant >= 0)) return std::nullopt;
@@ -92,7 +92,7 @@ std::optional<SurfaceLocation> QuadricSurface::intersectDisk(const SurfaceRay& r
 }
 
 SurfaceLocation QuadricSurface::locate(const FoundHit& found, const SurfaceRay& ray) const {
-    // Embree rounds rays of instances to float: what it met by a hair may be missed here.
+    // Embree rounds rays in instances to float: what it just hit may be missed here.
     return intersect(0, ray, std::numeric_limits<double>::infinity())
         .value_or(SurfaceLocation{found.t, found.local});
 }

@@ -76,7 +76,7 @@ struct Reach {
     }
     /// Through a lens: where the sample's point is seen from the rim of its pupil.
     void add(const LightFieldSample& s, Rect frame, const LensMap& lens) {
-        // Nothing moves by more than this many slopes.
+        // Nothing moves by more than this many times its slope.
         const float most = 3 * std::abs(s.slope);
         if (!(s.x - most < float(frame.x0) || s.x + most > float(frame.x1) || s.y - most < float(frame.y0) ||
               s.y + most > float(frame.y1)))

@@ -1,4 +1,4 @@
-// The sample pass: the light field of a scene's frame and of as much overscan around it as its blur needs.
+// The sample pass: traces the light field of a scene's frame and of as much overscan as its blur needs.
 #pragma once
 #include "trace/sample_options.h"
 #include "trace/tracer.h"
@@ -12,9 +12,9 @@ namespace slant {
 LightField traceLightField(const Tracer& tracer, const Scene& scene, const SampleOptions& options,
                            Monitor& monitor);
 
-/// The bounds for a frame whose samples are given (any order), seen through a pixel filter that reaches so
-/// many pixels to each side; sides of the overscan are at most `limitPx`. Sets `wantedPx` to the widest side
-/// that would be needed.
+/// The bounds for a frame whose samples are given (any order), seen through a pixel filter that reaches
+/// `filterReach` pixels to each side; sides of the overscan are at most `limitPx`. Sets `wantedPx` to the
+/// widest side that would be needed.
 Rect boundsWithOverscan(Rect frame, glm::ivec2 filterReach, std::span<const LightFieldSample> samples,
                         int samplesPerPixel, int limitPx, int& wantedPx, const LensMap& lens = {});
 

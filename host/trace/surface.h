@@ -54,14 +54,14 @@ public:
     virtual void describe(std::uint32_t primitive, const SurfaceLocation& at, SurfaceHit& hit) const = 0;
 };
 
-/// A surface that answers to rays itself, as a user geometry of Embree.
+/// A surface that intersects rays itself, as a user geometry of Embree.
 class UserSurface {
 public:
     virtual ~UserSurface() = default;
 
     virtual std::uint32_t primitiveCount() const = 0;
     virtual Box bounds(std::uint32_t primitive) const = 0;
-    /// The nearest meeting with 0 < t < tMax.
+    /// The nearest hit with 0 < t < tMax.
     virtual std::optional<SurfaceLocation> intersect(std::uint32_t primitive, const SurfaceRay& ray,
                                                      double tMax) const = 0;
 };

@@ -70,7 +70,7 @@ Textures::Textures(const Scene& scene) {
             node.image = &scene.images[std::size_t(t.imageIndex)];
             if (node.image->width() < 1 || node.image->height() < 1 ||
                 (node.image->channelCount() != 1 && node.image->channelCount() != 3))
-                throw badInput(file, "the image of texture {} is empty or has not 1 or 3 channels", i);
+                throw badInput(file, "the image of texture {} is empty or does not have 1 or 3 channels", i);
         }
         nodes_.push_back(node);
     }

@@ -2,7 +2,7 @@
 //
 // pbrt-v4's conventions: images are looked up at (s, 1 - t); a checkerboard shows its first texture where
 // floor(s) + floor(t) is even; planar mapping works on the world position. Rays have no footprint here, so
-// nothing is filtered beyond the texels themselves.
+// there is no filtering beyond that between texels.
 #pragma once
 #include "scene/scene.h"
 
@@ -16,7 +16,7 @@ struct TexturePoint {
     glm::vec2 uv{0};
 };
 
-/// What a texture's value stands for; pbrt treats image texels accordingly.
+/// The meaning of a texture's value; pbrt treats image texels accordingly.
 enum class TextureUse {
     albedo,    ///< colour in [0, 1]: texels are clamped to it
     unbounded, ///< colour >= 0

@@ -17,8 +17,8 @@ int floorDivide(int a, int b) {
     return a >= 0 ? a / b : -((b - 1 - a) / b);
 }
 
-/// Rays along one side of the film that look for the depths of a scene, and the share of them at either end
-/// that does not count.
+/// Rays per side of the film that look for the depths of a scene, and the share at either end that does not
+/// count.
 constexpr int kDepthProbes = 32;
 constexpr double kOutlierShare = 0.02;
 

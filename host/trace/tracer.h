@@ -20,14 +20,14 @@ public:
     Tracer(const Scene& scene, Monitor& monitor);
 
     /// Writes samples [firstSample, firstSample + count) of each pixel of `pixels`, a pattern of
-    /// samplesPerPixel, in the order of LightField: row, column, sample. Any pixel will do, on the film or
-    /// beside it. A sample depends on its pixel, its index, samplesPerPixel and the seed alone. Calls
+    /// samplesPerPixel, in the order of LightField: row, column, sample. Any pixels are allowed, on the film
+    /// or beside it. A sample depends on its pixel, its index, samplesPerPixel and the seed alone. Calls
     /// monitor.advance with samples. `out` has room for pixels.area() * count of them. Throws Error(usage)
     /// for sizes that do not fit, and what the monitor throws.
     void trace(Rect pixels, int firstSample, int count, int samplesPerPixel, std::uint64_t seed,
                const SampleSpans& out, Monitor& monitor) const;
 
-    /// Depths that the middle of the lens sees, nearest and farthest but for outliers; either may be
+    /// The nearest and farthest depth seen from the middle of the lens, without outliers; either may be
     /// infinite.
     std::pair<double, double> depthRange() const;
 

@@ -6,8 +6,7 @@
 
 namespace slant {
 
-// Takes Embree's word that the ray meets the triangle, and answers with the point of it that is nearest to
-// the ray.
+// Trusts Embree that the ray hits the triangle, and returns its point that is nearest to the ray.
 SurfaceLocation TriangleSurface::locate(const FoundHit& found, const SurfaceRay& ray) const {
     const std::uint32_t* v = corner(found.primitive);
     // Edge functions as seen from the origin (Plücker).

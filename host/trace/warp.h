@@ -1,5 +1,5 @@
 // Maps from the unit square to directions and points, and the frames they are given in. Every map takes
-// uniform random numbers in [0, 1) and says its density.
+// uniform random numbers in [0, 1) and states its density.
 #pragma once
 #include "camera/disc.h"
 

@@ -2,7 +2,7 @@
 // own samples. Here these come from a scene that is a few lines long, a disc in front of a checkered wall.
 //
 //     g++ -std=c++17 -O2 scenes/export/write_field.cpp -o write_field $(pkg-config --cflags --libs OpenEXR)
-//     ./write_field field.exr [SAMPLES A PIXEL]
+//     ./write_field field.exr [SAMPLES PER PIXEL]
 //     slant reconstruct field.exr -o picture.exr
 #include <ImathBox.h>
 #include <OpenEXR/ImfChannelList.h>
@@ -28,8 +28,7 @@ constexpr float kPixelsPerTangent = 100; // raster pixels per unit of x/z
 constexpr float kLensRadius = 0.5f;      // in the unit of the scene, as all that follows
 constexpr float kFocusDistance = 6;
 
-// A point at depth w is seen kC1 / w + kC2 pixels further along for every lens radius that one looks from
-// further along.
+// Moving the eye by one lens radius moves a point at depth w by kC1 / w + kC2 pixels the same way.
 constexpr float kC1 = -kPixelsPerTangent * kLensRadius;
 constexpr float kC2 = kPixelsPerTangent * kLensRadius / kFocusDistance;
 
@@ -63,8 +62,7 @@ void shade(Sample& s) {
     }
 }
 
-/// Any pattern will do; this one spreads the samples of a pixel over pixel and lens, each from a cell of its
-/// own.
+/// Any pattern will do; this one spreads the samples of a pixel over pixel and lens, each in its own cell.
 std::vector<Sample> samplesOfPixel(int column, int row, int count, std::mt19937& random) {
     std::uniform_real_distribution<float> uniform(0, 1);
     const auto below = [](float value, int next) {
@@ -99,7 +97,7 @@ Imf::Header makeHeader() {
         header.channels().insert(name, Imf::Channel(Imf::FLOAT));
     header.insert("slant:c1", Imf::FloatAttribute(kC1));
     header.insert("slant:c2", Imf::FloatAttribute(kC2));
-    // What follows may be left out.
+    // What follows is optional.
     header.insert("slant:lensRadius", Imf::FloatAttribute(kLensRadius));
     header.insert("slant:filter", Imf::StringAttribute("gaussian 1.5 1.5 0.5"));
     header.insert("slant:source", Imf::StringAttribute("scenes/export/write_field.cpp"));
@@ -144,7 +142,7 @@ void writeRow(Imf::DeepScanLineOutputFile& file, int row, int samplesPerPixel, s
 int main(int argc, char** argv) {
     const int samplesPerPixel = argc == 3 ? std::atoi(argv[2]) : 8;
     if (argc < 2 || argc > 3 || samplesPerPixel < 1) {
-        std::cerr << "usage: write_field FILE.exr [SAMPLES A PIXEL]\n";
+        std::cerr << "usage: write_field FILE.exr [SAMPLES PER PIXEL]\n";
         return 2;
     }
     try {

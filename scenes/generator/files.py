@@ -30,7 +30,7 @@ def write_png(path, width, height, pixel):
 
 
 def write_exr(path, width, height, pixel):
-    """Half-float RGB OpenEXR, one scanline a block; pixel(x, y) gives three linear floats."""
+    """Half-float RGB OpenEXR, one scanline per block; pixel(x, y) gives three linear floats."""
     def attribute(name, kind, data):
         return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<I", len(data)) + data
 

@@ -57,7 +57,7 @@ class Mesh:
             self.faces.append((a, b, c))
 
     def grid(self, rows, columns, point, uv):
-        """A part of (rows + 1) x (columns + 1) vertices: point(i, j), uv(i, j); two triangles a cell."""
+        """A part of (rows + 1) x (columns + 1) vertices: point(i, j), uv(i, j); two triangles per cell."""
         self.begin_part()
         index = [[self.vertex(point(i, j), uv(i, j)) for j in range(columns + 1)] for i in range(rows + 1)]
         for i in range(rows):

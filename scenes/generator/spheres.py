@@ -16,7 +16,7 @@ def write(folder):
     rng = Random(20110807)
     balls = helix(rng)
     balls += floor(rng, 100 - len(balls), balls)
-    lines = ["# Made by generate.py: one object a line group, front to back."]
+    lines = ["# Made by generate.py: one object per group of lines, front to back."]
     for index, (x, y, z, radius) in enumerate(sorted(balls, key=lambda ball: ball[2])):
         palette = WARM if z < 8 else MIDDLE if z < 13.5 else COOL
         a, b = palette[rng.randrange(4)], PALE[rng.randrange(3)]

@@ -29,7 +29,7 @@ KERNEL int ringsOf(int sector) {
     return kApertureSectors + 2 + sector * (kApertureRings + 1);
 }
 
-/// Where in its rings the share `s` of the sector's light lies inwards.
+/// The distance from the centre within which the share `s` of the sector's light lies.
 KERNEL float distanceAt(int rings, float s) {
     const int ring = entryAt(rings, kApertureRings, s);
     const float inner = float(ring) * (1.0f / float(kApertureRings));

@@ -7,14 +7,14 @@ SLANT_SHARED_BEGIN
 
 struct Candidate {
     vec2 offset;     // from the output, pixels of the film
-    float distance2; // as if its own radius were that of the search
+    float distance2; // scaled as if its own radius were that of the search
     float slope;
     float weight; // see lib/occlusion.glsl
     vec4 value;   // rgb; R over its own radius
 };
 
-/// Whether a place lies inside the convex hull of points, one at a time: it does where, seen from it, those
-/// above span directions beyond those below on both sides.
+/// Whether a place lies inside the convex hull of points that come one at a time: it does if, seen from it,
+/// the points above span directions beyond those below on both sides.
 struct Hull {
     vec2 upper; // least and greatest x/y of points with y >= 0
     vec2 lower; // ... with y < 0

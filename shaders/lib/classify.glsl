@@ -1,4 +1,4 @@
-// For a list: the clusters of surfaces that it sees, if its outputs can be taken from the layer map
+// For a list: the clusters of surfaces that it sees, if its outputs can come from the layer map
 // (host/reconstruct/map_lookup.h).
 //
 // Needs, declared before the include: listedBrick(uint), which reads the lists; keepCluster(uint, Cluster),
@@ -13,7 +13,7 @@ struct Clusters {
     float slopeMin, slopeMax; // of the one that is open
 };
 
-/// Level of the map where lens positions are near enough to one another on a surface of this slope or more.
+/// Level of the map where lens positions are close enough to one another on a surface of this slope or more.
 KERNEL float levelFor(float slope) {
     float spacing = float(mapLayout.texelsPerPixel) * mapLayout.spreadPerPx * max(slope, 0.0f);
     int level = 0;

@@ -9,7 +9,7 @@ KERNEL uint sumTo(IN(DensityLayout) layout_, float x, float y) {
     return sumAt(uint(y) * uint(layout_.size.x + 1) + uint(x));
 }
 
-/// Where pixels differ in their number of samples.
+/// For pixels that differ in their number of samples.
 KERNEL float samplesAround(IN(DensityLayout) layout_, vec2 p, float slope) {
     const float halfPx = max(kHalfSquareOfDisc * abs(slope), kMinHalfPx);
     const vec2 place = p - vec2(layout_.origin), size = vec2(layout_.size);
@@ -20,7 +20,7 @@ KERNEL float samplesAround(IN(DensityLayout) layout_, vec2 p, float slope) {
     return max(float(count) / ((high.x - low.x) * (high.y - low.y)), kMinDensity);
 }
 
-/// R over the own radius of a sample: 1 where all pixels have as many, and never less.
+/// R over the own radius of a sample: never below 1, and 1 if all pixels have equally many samples.
 KERNEL float radiusRatioAt(IN(DensityLayout) layout_, vec2 p, float slope, float radiusPx) {
     if (layout_.size.x == 0) return 1.0f;
     return max(sqrt(samplesAround(layout_, p, slope)) * (radiusPx / kSearchRadius), 1.0f);

@@ -1,5 +1,5 @@
-// A counter for each digit of a radix sort, in registers: four of 8 bits a word, and words chosen by
-// comparison, since indexing an array by a value would spill it to memory.
+// A counter for each digit of a radix sort, in registers: four counters of 8 bits per word. Comparisons
+// choose the word, since indexing an array by a value would spill it to memory.
 #ifndef SLANT_LIB_DIGIT_COUNTS_GLSL
 #define SLANT_LIB_DIGIT_COUNTS_GLSL
 #include "shared/radix.h"

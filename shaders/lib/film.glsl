@@ -1,4 +1,4 @@
-// What a dense sample brings to a pixel through the pixel filter.
+// What a dense sample contributes to a pixel through the pixel filter.
 //
 // Needs, declared before the include: filterWeightAt(int), which reads the weights of a filter's table. In
 // C++ it is included in a struct that has that.

@@ -7,7 +7,7 @@
 
 SLANT_SHARED_BEGIN
 
-/// Whether any output of the region can come to use a sample (false for disabled samples).
+/// Whether any output of the region can use a sample (false for disabled samples).
 KERNEL bool reaches(IN(Trajectory) trajectory, vec2 regionMin, vec2 regionMax, float marginPx) {
     if (isnan(trajectory.slope) || isinf(trajectory.slope)) return false;
     const vec2 p = trajectory.pinhole;

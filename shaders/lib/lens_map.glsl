@@ -1,4 +1,4 @@
-// Where a lens of many surfaces sends its rays, which host/camera/lens_map.h explains.
+// Where a compound lens sends its rays, which host/camera/lens_map.h explains.
 //
 // Needs, declared before the include: lensMapAt(int), which reads the texels of the map. In C++ it is
 // included in a struct that has that.

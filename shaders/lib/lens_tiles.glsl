@@ -1,4 +1,4 @@
-// Which tiles can see a brick through a lens of many surfaces, which host/reconstruct/lens_tiles.h explains.
+// Which tiles can see a brick through a compound lens, which host/reconstruct/lens_tiles.h explains.
 //
 // Needs, declared before the include: lensTileBoundAt(int), which reads the bounds. In C++ it is included in
 // a struct that has that, after lib/grid.glsl.
@@ -42,12 +42,12 @@ KERNEL ivec2 meeting(IN(BoundsAt) at, int offset, int count, float from, float t
     return range;
 }
 
-/// As tilesSeeing of lib/grid.glsl; `group` counts from the first of the bounds.
+/// Like tilesSeeing of lib/grid.glsl; `group` counts from the first of the bounds.
 KERNEL ivec4 tilesOfCompoundLens(IN(Brick) brick, IN(GridLayout) grid, IN(OutputLayout) outputs, int group) {
     const float steps = float(kLensTileSlopes - 1) * grid.invBucket / float(grid.bucketCount);
     const float from = (brick.slopeMin - grid.slopeMin) * steps,
                 to = (brick.slopeMax - grid.slopeMin) * steps;
-    // Beyond the slopes of the grid nothing is known.
+    // There are no bounds beyond the slopes of the grid.
     if (!(from > -0.01f && to < float(kLensTileSlopes - 1) + 0.01f)) return ivec4(0, 0, outputs.tileCount);
     const ivec2 tiles = outputs.tileCount;
     const int step_ = 2 * (tiles.x + tiles.y), begin = group * kLensTileSlopes * step_;

@@ -2,7 +2,7 @@
 #ifndef SLANT_LIB_LOWER_BOUND_GLSL
 #define SLANT_LIB_LOWER_BOUND_GLSL
 
-/// The first of `count` ascending keys from `first` on that is not below `value`; the place behind them if
+/// The first of `count` ascending keys from `first` on that is not below `value`; the place after them if
 /// there is none.
 uint lowerBound(uint value, uint first, uint count) {
     while (count > 0u) {

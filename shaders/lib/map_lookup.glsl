@@ -12,7 +12,7 @@ struct Lookup {
     ivec2 size;      // of the level
     ivec2 origin;    // its first texel
     int begin;
-    float scale; // texels a pixel
+    float scale; // texels per pixel
     SlopeCode code;
 };
 
@@ -52,13 +52,14 @@ KERNEL ivec2 placeAt(IN(Lookup) lookup, vec2 x, vec2 uv, float slope) {
     return ivec2(floor(pinholeOf(x, uv, slope) * lookup.scale));
 }
 
-/// Follows the ray through x and uv from a few slopes of the cluster to where the map has that slope. The
-/// loops end at their ends, since lavapipe goes through the rest of a round that all invocations have left.
+/// Follows the ray through x and uv, from a few slopes of the cluster, to a place where the map has the
+/// slope that led there. The loops test for their end last, since lavapipe executes the rest of an iteration
+/// that all invocations have left.
 KERNEL float settle(IN(Lookup) lookup, IN(Cluster) cluster, vec2 x, vec2 uv) {
     const vec3 starts =
         vec3(0.5f * (cluster.slopeMin + cluster.slopeMax), cluster.slopeMax, cluster.slopeMin);
     const float spread = (cluster.slopeMax - cluster.slopeMin) * max(abs(uv.x), abs(uv.y));
-    const int last = spread * lookup.scale < 1.0f ? 0 : 2; // within a texel one start is as good as three
+    const int last = spread * lookup.scale < 1.0f ? 0 : 2; // within a texel one start is enough
     uvec2 words;
     for (int start = 0;; ++start) {
         float slope = starts[start];

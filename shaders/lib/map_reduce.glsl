@@ -1,4 +1,4 @@
-// A texel of the layer map from the four below it: their layers of like slope as one.
+// A texel of the layer map from the four below it: their layers of similar slope become one.
 #ifndef SLANT_LIB_MAP_REDUCE_GLSL
 #define SLANT_LIB_MAP_REDUCE_GLSL
 #include "lib/map_texel.glsl"

@@ -1,5 +1,5 @@
-// The surfaces around the middle of a texel of the layer map's level 0, a tent over map.tentPx; where there
-// are several, told apart by the samples within twice that, as lib/visibility.glsl does.
+// The surfaces around the middle of a texel of the layer map's level 0, weighted by a tent over map.tentPx.
+// Where there are several, the samples within twice that separate them, as in lib/visibility.glsl.
 //
 // What lib/search.glsl needs of a sweep. Needs, declared before the include: a struct LayerTexel with a
 // member `int count`, its layers; noLayers(), which makes an empty one; and keepLayer(vec3 rgb, float
@@ -28,7 +28,7 @@ KERNEL Sweep newSweep(IN(GridLayout) grid, float tentPx, float texelsPerPixel, I
     return sweep;
 }
 
-/// Makes a layer of a surface. What has nothing before or behind it fills the texel.
+/// Makes a layer of a surface. A surface with nothing before or behind it fills the texel.
 KERNEL void close(INOUT(Sweep) sweep, bool last) {
     const Surface surface = sweep.surface;
     if (!(surface.innerWeight > 0.0f)) return;
@@ -45,7 +45,7 @@ KERNEL void visit(IN(Candidate) candidate, INOUT(Sweep) sweep) {
         sweep.running = sweep.texel.count < kMapLayers;
         if (!sweep.running) return;
     }
-    // Where own radii are less than the tent's, there are more samples in it than it takes.
+    // Where own radii are smaller than the tent's, it contains more samples than it needs.
     const float widened = min(candidate.value.w, sweep.maxRadiusRatio) / candidate.value.w;
     Candidate spread = candidate;
     spread.weight *= widened * widened;

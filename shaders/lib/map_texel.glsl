@@ -19,14 +19,14 @@ KERNEL float powerOfTwo(uint biased) {
     return uintBitsToFloat(biased << 23);
 }
 
-/// Codes of the slopes that a grid tells apart.
+/// Codes of the slopes that a grid distinguishes.
 KERNEL SlopeCode slopeCode(IN(GridLayout) grid) {
     const float perStep = float(kNoSlopeCode - 1u) * grid.invBucket / float(grid.bucketCount);
     const SlopeCode code = {grid.slopeMin, 1.0f / perStep, perStep};
     return code;
 }
 
-/// A layer that is there.
+/// A layer that exists.
 KERNEL uvec2 packLayer(vec3 rgb, float coverage, float slope, IN(SlopeCode) code) {
     const float most = max(max(rgb.x, rgb.y), rgb.z);
     const uint exponent = max(floatBitsToUint(most) >> 23, kMinExponent);

@@ -38,7 +38,7 @@ KERNEL bool hides(IN(Sweep) sweep, IN(Brick) brick) {
     return brick.slopeMin > sweep.slopeMax + sweep.surfaceGap && isSolid(sweep);
 }
 
-/// Whether the surface that was found is what the output sees.
+/// Whether the output sees just the surface that was found.
 KERNEL bool isTaken(IN(Sweep) sweep) {
     return sweep.running ? sweep.weightSum > 0.0f : isSolid(sweep);
 }

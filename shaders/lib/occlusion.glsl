@@ -1,4 +1,4 @@
-// How much of the lens a sample is visible from, which host/reconstruct/occlusion.h explains.
+// From how much of the lens a sample is visible, which host/reconstruct/occlusion.h explains.
 #ifndef SLANT_LIB_OCCLUSION_GLSL
 #define SLANT_LIB_OCCLUSION_GLSL
 #include "lib/hash.glsl"

@@ -1,4 +1,4 @@
-// Floats as unsigned integers of the same order (negative ones have their bits turned round).
+// Floats as unsigned integers of the same order (negative ones have all bits flipped).
 #ifndef SLANT_LIB_ORDERED_FLOAT_GLSL
 #define SLANT_LIB_ORDERED_FLOAT_GLSL
 

@@ -13,7 +13,7 @@ KERNEL Output outputOnFilm(vec2 xy, vec2 uv, float t, float positionCode) {
     return o;
 }
 
-/// Takes an output of the film to the scene's side of a lens, where samples are searched
+/// Takes an output from the film to the scene's side of a lens, where samples are searched
 /// (host/camera/lens_map.h): `ray` is what the map gives for it.
 KERNEL void toSceneSide(INOUT(Output) o, IN(SceneRay) ray) {
     o.onSceneSide = true;

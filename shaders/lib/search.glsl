@@ -1,19 +1,19 @@
 // The samples around an output, brick by brick: what every search of the bins is made of.
 //
-// Needs, declared before the include: positionAt(uint), valueAt(uint) and cellStartAt(uint), which read
-// the bins; listedBrick(uint) and listedCellBase(uint), which read the lists; kMaxSteps, after which a search
+// Needs, declared before the include: positionAt(uint), valueAt(uint) and cellStartAt(uint), which read the
+// bins; listedBrick(uint) and listedCellBase(uint), which read the lists; kMaxSteps, after which a search
 // stops; a struct Sweep with a member `bool running`; visit(Candidate, inout Sweep), called for each
-// candidate until it clears `running`; and hides(Sweep, Brick), whether what was met so far hides a brick and
-// all that follow. In C++ it is included in a struct that has these, after lib/candidate.glsl, lib/grid.glsl
-// and lib/output.glsl.
+// candidate until it clears `running`; and hides(Sweep, Brick), whether the samples visited so far hide a
+// brick and all later ones. In C++ it is included in a struct that has these, after lib/candidate.glsl,
+// lib/grid.glsl and lib/output.glsl.
 #include "lib/candidate.glsl"
 #include "lib/grid.glsl"
 #include "lib/output.glsl"
 
 /// Visits the samples that reproject to within `radius` of the output, or less for those whose own radius is
 /// less than R: down to 1 / maxRadiusRatio of it. They come in the order of their bricks: front to back, up
-/// to the width of a bucket. Returns loop steps: more than kMaxSteps where it stopped at them, and the output
-/// must be done elsewhere.
+/// to the width of a bucket. Returns the number of loop steps: if it is above kMaxSteps, the search stopped
+/// early and the output must be done elsewhere.
 KERNEL int forEachCandidate(IN(GridLayout) grid, IN(Output) o, float radius, float maxRadiusRatio,
                             uint listBegin, uint listEnd, INOUT(Sweep) sweep) {
     const int side = grid.cellsPerBrick;

@@ -6,7 +6,7 @@
 
 SLANT_SHARED_BEGIN
 
-/// What is known of an apparent surface around an output.
+/// What is known about an apparent surface around an output.
 struct Surface {
     int count; // samples within twice the base radius
     float slopeMax;
@@ -40,21 +40,22 @@ KERNEL vec3 meanOf(IN(Surface) s) {
     return s.innerWeight > 0.0f ? s.innerSum / s.innerWeight : s.outerSum / s.outerWeight;
 }
 
-/// Surfaces laid over one another, front to back.
+/// Surfaces composited over one another, front to back.
 struct Layers {
     vec3 rgb;
     float transmittance;
 };
 
-/// A surface whose samples surround the output, and as many as if it lay inside and not at the rim, hides
-/// what is behind.
+/// A surface hides what is behind if its samples surround the output and are as many as inside a surface,
+/// not as at its rim.
 KERNEL bool isSolid(IN(Surface) s, float fullWeight) {
     const float fullOuterWeight = 8.0f * fullWeight; // tent twice as wide, and twice as high
     return surrounds(s.hull) && s.outerWeight >= kSolidOuter * fullOuterWeight;
 }
 
-/// Adds a surface that has another one behind it. Where it is not solid it covers as much as its samples are
-/// many: a rim, or a thing smaller than R, keeps its area on average and so its brightness.
+/// Adds a surface that has another one behind it. Where it is not solid, its coverage is in proportion to
+/// its number of samples: a rim, or an object smaller than R, keeps its area on average and so its
+/// brightness.
 KERNEL void addSurface(INOUT(Layers) layers, IN(Surface) s, float fullWeight) {
     const float opacity = isSolid(s, fullWeight) ? 1.0f : min(s.innerWeight / fullWeight, 1.0f);
     if (opacity > 0.0f) layers.rgb += layers.transmittance * opacity * meanOf(s);

@@ -1,17 +1,17 @@
-// The samples within twice a base radius of an output, split into apparent surfaces that are laid over one
-// another, front to back: one that surrounds the output hides the rest, another covers as much as its samples
-// are many, and the last is taken as it is.
+// The samples within twice a base radius of an output, split into apparent surfaces that are composited over
+// one another, front to back. One that surrounds the output hides the rest; any other covers in proportion
+// to its number of samples; the last fills what remains.
 //
-// After Lehtinen et al. 2011, section 4, but that surfaces are split at gaps in slope instead of at pairwise
-// crossings (bricks come front to back, so one sweep finds them without storing candidates, and there is no
-// limit on their number), and that a surface which does not cover the output is not dropped but weighed by
-// its density, so that small and thin things keep their brightness.
+// After Lehtinen et al. 2011, section 4, with two differences. Surfaces are split at gaps in slope instead
+// of at pairwise crossings: bricks come front to back, so one sweep finds them without storing candidates,
+// and their number has no limit. And a surface that does not cover the output is not dropped but weighted by
+// its density, so that small and thin objects keep their brightness.
 //
 // What lib/search.glsl needs of a sweep. In C++ it is included in a struct, after lib/surface.glsl.
 #include "lib/surface.glsl"
 
 struct Sweep {
-    bool running; // false: nothing shows through any more
+    bool running; // false: nothing behind shows through
     float baseRadius, surfaceGap, fullWeight;
     Surface surface; // the last one
     Layers layers;   // those before it

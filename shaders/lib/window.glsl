@@ -11,7 +11,7 @@
 #include "lib/output.glsl"
 #include "lib/trajectory.glsl"
 
-/// What is known of an apparent surface.
+/// What is known about an apparent surface.
 struct WindowSurface {
     int count;
     vec3 sum;
@@ -39,7 +39,7 @@ KERNEL void addToSurface(INOUT(WindowSurface) surface, IN(WindowCandidate) candi
     addPoint(surface.hull, candidate.offset);
 }
 
-/// Whether two trajectories have the same order, in x and in y, a lens step to either side.
+/// Whether two trajectories keep their order, in x and in y, over a lens step to either side.
 KERNEL bool sameSurface(IN(WindowCandidate) a, IN(WindowCandidate) b, float lensStep) {
     const vec2 apart = a.offset - b.offset;
     const float shear = (a.slope - b.slope) * lensStep;
@@ -86,7 +86,7 @@ struct WindowView {
     vec3 rgb;
 };
 
-/// The foremost surface that surrounds the output; without one the foremost of all.
+/// The foremost surface that surrounds the output; if there is none, the foremost of all.
 KERNEL WindowView viewOf(IN(WindowSearch) search, IN(WindowFinds) finds, IN(Output) o) {
     WindowView view = {kWindowHole, vec3(0.0f)};
     if (finds.count == 0) {
@@ -95,8 +95,7 @@ KERNEL WindowView viewOf(IN(WindowSearch) search, IN(WindowFinds) finds, IN(Outp
         view.rgb = vec3(valueAt(finds.nearest));
         return view;
     }
-    // Sorted here and not while they are gathered: lavapipe counts a step of an inner loop even where it is
-    // not entered.
+    // Sorts here and not while gathering: lavapipe counts a step of an inner loop even if it is not entered.
     sortCandidates(finds.count);
     WindowSurface front = noWindowSurface(), surface = noWindowSurface();
     WindowCandidate previous = {vec2(0.0f), 0.0f, 0.0f, 0u};

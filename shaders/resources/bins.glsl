@@ -8,7 +8,7 @@ layout(set = 0, binding = 1) uniform textureBuffer values;    // r, g, b, R over
 layout(set = 0, binding = 2) uniform utextureBuffer cellStart;
 layout(set = 0, binding = 3) uniform utextureBuffer listStart;
 layout(set = 0, binding = 4) uniform utextureBuffer listCellBases; // of each listed brick
-// The bricks themselves: one fetch where most are passed over.
+// Copies of the bricks themselves: one fetch each, since most bricks are skipped.
 layout(set = 0, binding = 5) uniform utextureBuffer listBricks;
 layout(push_constant) uniform Push {
     OutputPush push;

@@ -1,4 +1,4 @@
-// Whether outputs look through a lens of many surfaces: then samples are on its scene's side
+// Whether outputs look through a compound lens: then samples are on its scene's side
 // (host/camera/lens_map.h).
 #ifndef SLANT_RESOURCES_COMPOUND_LENS_GLSL
 #define SLANT_RESOURCES_COMPOUND_LENS_GLSL

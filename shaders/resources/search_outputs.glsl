@@ -1,9 +1,9 @@
-// The pass that searches the bins for outputs: one workgroup is one output of each pixel of one tile. What
-// its kernel does not take is appended to a list for visibility.comp.
+// The pass that searches the bins for outputs: one workgroup is one output of each pixel of one tile.
+// Outputs that its kernel does not take are appended to a list for visibility.comp.
 //
 // Needs, declared before the include: what lib/search.glsl needs of a sweep; newSweep(float radiusPx, float
-// surfaceGap); isTaken(Sweep), whether what was found within R is what the output sees; and valueOf(Sweep),
-// that.
+// surfaceGap); isTaken(Sweep), whether the output sees what was found within R; and valueOf(Sweep), its
+// value.
 #include "resources/bins.glsl"
 #include "resources/compound_lens.glsl"
 
@@ -16,7 +16,7 @@ layout(set = 0, binding = 10, r32ui) uniform writeonly uimageBuffer overflowList
 layout(set = 0, binding = 11) uniform utextureBuffer left; // lists to search for: tile x, y, lens group, list
 layout(set = 0, binding = 12) uniform textureBuffer apertureTable;
 layout(set = 0, binding = 13) uniform textureBuffer lensMap;
-layout(set = 0, binding = 14) uniform utextureBuffer missed; // two a list: a bit for each pixel that is left
+layout(set = 0, binding = 14) uniform utextureBuffer missed; // two per list: a bit for each pixel left
 
 float apertureAt(int i) {
     return texelFetch(apertureTable, i).x;
@@ -35,7 +35,7 @@ uint memberAt(uint firstOfGroup, uint rank) {
 }
 
 void main() {
-    // Workgroups that share a list follow one another; nothing is divided, which lavapipe does lane by lane.
+    // Workgroups that share a list follow one another. There is no division: lavapipe divides lane by lane.
     const OutputLayout outputs = push.outputs;
     const GridLayout grid = push.grid;
     const int groupBits = push.groupBits, takenBits = push.takenBits;
@@ -44,9 +44,9 @@ void main() {
     const uvec4 item = texelFetch(left, int(workgroup >> takenBits));
     const uvec2 tile = item.xy;
     const uint group = item.z, list = item.w;
-    // Of the 64 << takenBits outputs of this list: eight neighbouring lanes take two lens positions of a
-    // square of two by two pixels; of the ways to split a tile and a lens group this keeps their candidates
-    // most alike.
+    // Splits the 64 << takenBits outputs of this list: eight neighbouring lanes take two lens positions of
+    // two by two pixels. Among the ways to split a tile and a lens group, this one makes their candidates
+    // most similar.
     const uint place = bitfieldExtract(workgroup, 0, takenBits) << 6 | gl_LocalInvocationIndex;
     const int pairBits = min(takenBits, 1), restBits = takenBits - pairBits;
     const uint pair = bitfieldExtract(place, 0, pairBits), quad = bitfieldExtract(place, pairBits, 2);

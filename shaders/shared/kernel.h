@@ -2,7 +2,7 @@
 // brings GLSL's functions into the namespace.
 //
 // A kernel has KERNEL before it and IN or INOUT around the types of parameters that are more than a number.
-// Of what is fetched in a hot loop it takes an IN too: C++ would copy it. Literals end in f, vectors are cut
+// Values fetched in a hot loop are taken by IN too: C++ would copy them. Literals end in f, vectors are cut
 // with vec2(v) and vec3(v) instead of swizzles, and structs are made by lists of initializers.
 #ifndef SLANT_SHARED_KERNEL_H
 #define SLANT_SHARED_KERNEL_H

@@ -7,7 +7,7 @@ SLANT_SHARED_BEGIN
 
 /// Layers that a texel of the map keeps, front to back.
 SLANT_SHARED_CONSTANT int kMapLayers = 2;
-/// Most texels of level 0 along a pixel's side.
+/// Maximum number of texels of level 0 along a pixel's side.
 SLANT_SHARED_CONSTANT int kMaxTexelsPerPixel = 2;
 /// Maps begin and end at multiples of this many pixels, and no texel is wider, so that each map has the same
 /// texels as any other at all levels.
@@ -16,21 +16,22 @@ SLANT_SHARED_CONSTANT int kMapAlignPx = 16;
 SLANT_SHARED_CONSTANT float kNoLayer = 1e30f;
 SLANT_SHARED_CONSTANT uint kNoSlopeCode = 65535u; // the same, packed
 
-/// A list is taken from the map where each cluster of surfaces, told apart by gaps in slope, moves less than
-/// this, in pixels, against itself over the lens, and where there are no more of them.
+/// A list is taken from the map if each cluster of surfaces, separated by gaps in slope, moves less than
+/// this, in pixels, against itself over the lens, and if it has no more than this many clusters.
 SLANT_SHARED_CONSTANT float kWidestClusterPx = 8.0f;
 SLANT_SHARED_CONSTANT uint kMaxClusters = 16u;
-/// A cluster with a smaller slope is in focus. Where samples lie closer than texels, the map would soften it,
-/// and does not serve; where it serves, each output is looked up at its own place in the pixel.
+/// A cluster with a smaller slope is in focus. Where samples are denser than texels, the map would soften it
+/// and is not used; otherwise each output is looked up at its own place in the pixel.
 SLANT_SHARED_CONSTANT float kMinSlope = 0.5f;
-/// Most clusters of such a list: the rims of crowds in focus are more than two layers can hold.
+/// Maximum number of clusters of such a list: the rims of many objects in focus are more than two layers can
+/// hold.
 SLANT_SHARED_CONSTANT uint kMaxInFocusClusters = 4u;
 /// ListClass of a list: the number of its clusters, 0 if the map does not serve it, with this bit where one
 /// of them is in focus.
 SLANT_SHARED_CONSTANT uint kInFocusBit = 256u;
-/// Where some outputs of a pixel meet nothing in the map, that pixel of the list is searched for in the bins;
-/// all pixels are where the list has more clusters than this: then the map lacks more there than what was
-/// missed.
+/// Where some outputs of a pixel meet nothing in the map, that pixel of the list is searched for in the
+/// bins. If the list has more clusters than this, all its pixels are: then the map lacks more there than
+/// what was missed.
 SLANT_SHARED_CONSTANT uint kPartClusters = 3u;
 /// Bit of the class of any list whose lens positions see everything within kSparsePx of one another: a few of
 /// its outputs are enough (OutputPattern::sparseBits).
@@ -38,10 +39,10 @@ SLANT_SHARED_CONSTANT uint kSparseBit = 512u;
 SLANT_SHARED_CONSTANT float kSparsePx = 1.0f;
 /// Steps from a slope of a cluster to where the map has it.
 SLANT_SHARED_CONSTANT int kSettleSteps = 3;
-/// What shows through less than this is not looked for.
+/// Surfaces that would show through by less than this are not looked up.
 SLANT_SHARED_CONSTANT float kOpaque = 0.00390625f;
-/// Lens positions of an output lie this far apart on a surface, in texels, before it is looked up a level
-/// higher.
+/// Lens positions of an output may lie this far apart on a surface, in texels, before a coarser level is
+/// used.
 SLANT_SHARED_CONSTANT float kLevelSpacing = 3.0f;
 
 /// Packed slopes: steps from the least one; `perStep` steps are 1.
@@ -57,7 +58,7 @@ struct MapLayout {
     int texelsPerPixel; // along a side, 1 or kMaxTexelsPerPixel, see mapTexelsPerPixel
     int levels;
     float surfaceGap;  // as GridLayout
-    float reachPx;     // a surface that moves further over the lens may lie outside the map
+    float reachPx;     // a surface that moves farther over the lens may lie outside the map
     float spreadPerPx; // distance of lens positions on a surface that is blurred over a pixel to each side
     SlopeCode code;
     float radiusPx; // as GridLayout

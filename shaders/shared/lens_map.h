@@ -5,14 +5,14 @@
 
 SLANT_SHARED_BEGIN
 
-/// Texel 0: film centre x, y; radii a pixel; number of radii. Texel 1: rings a pixel; number of rings; turns
-/// of half a circle; distances (intervals). Texel 2: 0, or 1 if the unit disc is that of the stop; and three
-/// times 0. Then come the radii, [radius]: distance from the centre at which
-/// the middle of the pupil looks on the focus plane; how much longer a short way there is than on the film,
-/// along and across the radius; irradiance. Then the nodes, [ring][turn][distance]: aberration along and
-/// across the radius, in pixels of the film; place on the entrance pupil, along and across. If the disc is
-/// that of the stop, then come the lights, in the same order: irradiance by this place; clearance, below 0
-/// where rays are blocked; the share of the disc that is open for this ring; 0.
+/// Texel 0: film centre x, y; radii per pixel; number of radii. Texel 1: rings per pixel; number of rings;
+/// turns per half circle; distances (intervals). Texel 2: 0, or 1 if the unit disc is that of the stop; then
+/// three zeros. Then come the radii, [radius]: distance from the centre at which the middle of the pupil
+/// looks on the focus plane; how much longer a short way there is than on the film, along and across the
+/// radius; irradiance. Then the nodes, [ring][turn][distance]: aberration along and across the radius, in
+/// pixels of the film; place on the entrance pupil, along and across. If the disc is that of the stop, then
+/// come the lights, in the same order: irradiance by this place; clearance, below 0 where rays are blocked;
+/// the share of the disc that is open for this ring; 0.
 SLANT_SHARED_CONSTANT int kLensMapHeader = 3;
 
 /// A ray on the scene's side.

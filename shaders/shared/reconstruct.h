@@ -5,23 +5,24 @@
 
 SLANT_SHARED_BEGIN
 
-/// Outputs are reconstructed in square tiles of this many pixels a side; one workgroup is one tile.
+/// Outputs are reconstructed in square tiles with this many pixels per side; one workgroup is one tile.
 SLANT_SHARED_CONSTANT int kTileSize = 8;
 /// Dense samples of a pixel that are summed up before they go into the film, so that chunks of any number of
 /// whole blocks give the same film.
 SLANT_SHARED_CONSTANT int kFilmBlock = 32;
-/// Most outputs of a pixel that share a lens group, and so a list of bricks; whole groups make a block.
+/// Maximum number of outputs of a pixel that share a lens group, and so a list of bricks; whole groups make
+/// a block.
 SLANT_SHARED_CONSTANT int kMaxGroupSize = 8;
-/// The search radius R is this over the square root of the samples a pixel where they are fewest; that of a
-/// sample (its own radius) the same where it lies.
+/// The search radius R is this over the square root of the samples per pixel where they are fewest; the own
+/// radius of a sample is the same with the samples per pixel around it.
 SLANT_SHARED_CONSTANT float kSearchRadius = 1.7f;
-/// What the tent weights within R of an output add up to, on average, where a surface is all around: every
-/// plane holds as many samples a square pixel as the pattern does. spp * integral of (1 - d / R) = pi / 3
+/// What the tent weights within R of an output add up to, on average, if a surface is all around: every
+/// plane has as many samples per square pixel as the pattern. spp * integral of (1 - d / R) = pi / 3
 /// kSearchRadius^2.
 SLANT_SHARED_CONSTANT float kFullWeight = 3.0264205f;
-/// Shares of that from which a surface that surrounds the output is solid, by its samples within R and within
-/// 2 R. Lower ones let small bright things grow, higher ones let them fade: `lights` drifts by +0.6 % at 0.6
-/// and 0.45, by -0.7 % at 0.75 and 0.55, by -3.4 % at 0.85 and 0.7 (2 samples a pixel).
+/// Shares of that from which a surface that surrounds the output is solid, by its samples within R and
+/// within 2 R. Lower ones let small bright things grow, higher ones let them fade: `lights` drifts by +0.6 %
+/// at 0.6 and 0.45, by -0.7 % at 0.75 and 0.55, by -3.4 % at 0.85 and 0.7 (2 samples per pixel).
 SLANT_SHARED_CONSTANT float kSolidInner = 0.68f;
 SLANT_SHARED_CONSTANT float kSolidOuter = 0.5f;
 /// Positions of outputs inside their pixel are multiples of 1 / kSubpixels (plus half a step).
@@ -52,12 +53,12 @@ struct GridLayout {
     int bucketCount;   // slope buckets; the first and the last reach to infinity
     float slopeMin;    // where the first bucket would begin, pixels per lens radius
     float invBucket;   // 1 / (width of a slope bucket)
-    float surfaceGap;  // samples further apart in slope are on different surfaces; >= a bucket's width
+    float surfaceGap;  // samples farther apart in slope are on different surfaces; >= a bucket's width
     float radiusPx;    // R: radius of the largest empty circle of the input pattern, where it is sparsest
     uint sampleCount;  // binned samples
 };
 
-/// Further than any sample that can be seen.
+/// Farther away than any sample that can be seen.
 SLANT_SHARED_CONSTANT float kFarPx = 1e9f;
 
 /// The outputs: outputsPerPixel for each pixel of the region.
@@ -83,8 +84,8 @@ struct BrickBox {
     vec2 low, high;
 };
 
-/// Margins of a list narrow with the own radii of a brick's samples, but no further than to this: the layer
-/// map looks that far (twice the width of its smallest texels).
+/// Margins of a list narrow with the own radii of a brick's samples, but not below this: the layer map
+/// searches that far (twice the width of its smallest texels).
 SLANT_SHARED_CONSTANT float kMinMarginPx = 1.0f;
 
 /// Words of a brick while its bounds are gathered, each the least of what its samples have: slope in ordered
@@ -97,30 +98,31 @@ SLANT_SHARED_CONSTANT uint kHoleCount = 1u;       // outputs that found nothing
 SLANT_SHARED_CONSTANT uint kOverflowCount = 2u;   // outputs over kMaxLoopIterations
 SLANT_SHARED_CONSTANT uint kCounters = 4u;
 
-/// Planes of constant slope, cut into square blocks, in each of which the rays are counted that end before
-/// they reach it.
+/// Planes of constant slope, cut into square blocks. Each block counts the rays that end before they reach
+/// it.
 struct OcclusionLayout {
     ivec2 blockCount;   // along x and y, from the grid's origin
     float invBlock;     // 1 / (side of a block in pixels)
     int planeCount;     // plane k stands for slopes from slopeMin + k * spacing on
     float slopeMin;     // pixels per lens radius
     float spacing;      // of planes
-    uint stride;        // one sample in so many is followed
+    uint stride;        // one sample in this many is followed
     float raysPerBlock; // of these, if none were stopped, where samples are sparsest
 };
 
-/// Samples a pixel around any place: sums of the samples of all pixels above and to the left, (size.x + 1) a
-/// row.
+/// Samples per pixel around any place: sums of the samples of all pixels above and to the left, (size.x + 1)
+/// per row.
 struct DensityLayout {
     ivec2 origin; // pixel
-    ivec2 size;   // pixels; 0 where all have as many
+    ivec2 size;   // pixels; 0 if all have equally many samples
 };
-/// Samples are counted over this many pixels to each side at least, and taken for this many a pixel at least.
+/// Samples are counted over at least this many pixels to each side, and taken for at least this many per
+/// pixel.
 SLANT_SHARED_CONSTANT float kMinHalfPx = 1.5f;
 SLANT_SHARED_CONSTANT float kMinDensity = 0.015625f;
 /// Half the side of a square that has the area of the unit disc.
 SLANT_SHARED_CONSTANT float kHalfSquareOfDisc = 0.88622693f;
-/// A search whose radius narrows to each sample's own, however small that is.
+/// For a search whose radius narrows to each sample's own, however small that is.
 SLANT_SHARED_CONSTANT float kAnyRadiusRatio = 1e9f;
 
 /// bin_place, bin_occlude, bin_gather, bin_cells.

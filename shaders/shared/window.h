@@ -7,10 +7,10 @@ SLANT_SHARED_BEGIN
 
 /// Samples near an output that a shader can sort; outputs with more are left to the CPU.
 SLANT_SHARED_CONSTANT int kMaxWindowCandidates = 64;
-/// Samples of a window, and its rows, that a shader looks at. These loops are the same for a whole vector of
+/// Limits on the samples and rows of a window in a shader. These loops are the same for a whole vector of
 /// invocations; with what it takes to sort kMaxWindowCandidates they stay below lavapipe's 65,535 steps.
 SLANT_SHARED_CONSTANT int kMaxWindowSteps = 60000;
-/// Samples that are one surface whatever their order: the fewest that can surround an output.
+/// This many samples are one surface whatever their order: the fewest that can surround an output.
 SLANT_SHARED_CONSTANT int kMinSurface = 3;
 /// The Gaussian ends here, at e^-40: a lone distant sample still has a weight.
 SLANT_SHARED_CONSTANT float kMaxExponent = 40.0f;
@@ -18,9 +18,9 @@ SLANT_SHARED_CONSTANT float kMaxExponent = 40.0f;
 /// One more counter beside kHoleCount and its like: outputs that took the nearest sample of their window.
 SLANT_SHARED_CONSTANT uint kFilledCount = 3u;
 
-/// What came of an output.
+/// The outcome of an output.
 SLANT_SHARED_CONSTANT uint kWindowFound = 0u;  // by one surface alone
-SLANT_SHARED_CONSTANT uint kWindowParted = 1u; // surfaces had to be told apart
+SLANT_SHARED_CONSTANT uint kWindowParted = 1u; // surfaces had to be separated
 SLANT_SHARED_CONSTANT uint kWindowFilled = 2u; // nothing within the radius: the nearest sample of the window
 SLANT_SHARED_CONSTANT uint kWindowHole = 3u;   // nothing: black
 

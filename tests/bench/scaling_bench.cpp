@@ -80,7 +80,7 @@ std::vector<Growth> growths() {
     return all;
 }
 
-/// Of the power law through (x, y) that is nearest by the squares of logarithms.
+/// The exponent of the power law through (x, y), by least squares of logarithms.
 double exponent(const std::vector<std::pair<double, double>>& points) {
     double x = 0, y = 0, xx = 0, xy = 0;
     for (const auto& [a, b] : points) {

@@ -1,4 +1,4 @@
-// Samples a second of the whole sample pass: pattern, camera, primary ray, shading, shadow ray, store. Run
+// Samples per second of the whole sample pass: pattern, camera, primary ray, shading, shadow ray, store. Run
 // with one thread, so that items_per_second is that of one core.
 #include "base/parallel.h"
 #include "scene/read_scene.h"

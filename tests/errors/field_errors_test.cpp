@@ -54,7 +54,7 @@ protected:
 TEST_F(FieldErrors, filesThatAreNoLightField) {
     fails("there is no such file");
     test::writeText(dir_.file("a"), "something else");
-    fails("is no light field");
+    fails("is not a light field");
     test::writeText(dir_.file("b.header"), kHeader);
     fails("there is no such file", "b");
     const std::string picture = dir_.file("picture.exr");
@@ -71,7 +71,7 @@ TEST_F(FieldErrors, tlfrHeaders) {
     headerFails("Width 2", "Width 99999999999", "whole number");
     headerFails("Width 2", "Width 2000000000", "the samples span");
     headerFails("Width 2\nHeight 1", "Width 1000000\nHeight 1000000", "fewer than 2^32");
-    headerFails("pixel 1", "pixel 70000", "70000 samples a pixel");
+    headerFails("pixel 1", "pixel 70000", "70000 samples per pixel");
     headerFails("Width 2", "Width 3", "holds 2 samples; its header has 3");
     headerFails("Width 2", "Width 200000", "holds 136 bytes; the 200000 samples of its header take at least");
     headerFails("affine", "quadratic", "quadratic");
@@ -81,18 +81,19 @@ TEST_F(FieldErrors, tlfrHeaders) {
     headerFails("-15,19", "15,-19", "C1 = 15 is positive");
     headerFails("text", "ebcdic", "ebcdic");
     headerFails("text", "binary", "the 2 samples of its header take 128");
-    headerFails("x,y,z/w", "x,y", "is no line of a TLFR 1.3 header");
+    headerFails("x,y,z/w", "x,y", "is not a line of a TLFR 1.3 header");
     headerFails("dwdy\n", "dwdy\nslant:frame 0 3 0 1\n", "is not part of the pixels");
     headerFails("dwdy\n", "dwdy\nslant:frame 0 1.5 0 1\n", "4 whole numbers");
     headerFails("dwdy\n", "dwdy\nslant:origin 4000000000 0\n", "2 whole numbers");
     headerFails("dwdy\n", "dwdy\nslant:origin 900000000 0\n", "the samples span");
     headerFails("dwdy\n", "dwdy\nslant:film 0 0 0 1\n", "the film span");
-    headerFails("dwdy\n", "dwdy\nslant:colour red\n", "'slant:colour' is not known");
+    headerFails("dwdy\n", "dwdy\nslant:colour red\n", "'slant:colour' is unknown");
     headerFails("dwdy\n", "dwdy\nslant:filter gausian 1 1 1\n", "a.header:9: filter 'gausian'");
     headerFails("dwdy\n", "dwdy\nslant:filter gausian 1 1 1\n", "did you mean 'gaussian'?");
     headerFails("dwdy\n", "dwdy\nslant:filter box 1 99\n", "two radii");
     headerFails("dwdy\n", "dwdy\nslant:lensRadius -1\n", "not a length");
-    headerFails("dwdy\n", "dwdy\nslant:aperture hexagon\n", "a.header:9: aperture 'hexagon' is no shape");
+    headerFails("dwdy\n", "dwdy\nslant:aperture hexagon\n",
+                "a.header:9: aperture 'hexagon' is not a known shape");
     headerFails("dwdy\n", "dwdy\nslant:aperture polygon 2\n", "3 to 100 blades");
     headerFails("dwdy\n", "dwdy\nslant:aperture image 00ff\n", "131072 hexadecimal digits");
     headerFails("dwdy\n", "dwdy\nslant:seed 1.5\n", "whole number of 64 bits");
@@ -252,7 +253,7 @@ TEST_F(FieldErrors, lensesThatCannotBe) {
                 HasSubstr("55 % of this lens lies outside the traced one"));
     const test::ProgramResult unknown = reconstruct({"--aperture", "stra"});
     EXPECT_EQ(unknown.status, 3) << unknown.err;
-    EXPECT_THAT(unknown.err, HasSubstr("aperture \"stra\" is none of"));
+    EXPECT_THAT(unknown.err, HasSubstr("aperture \"stra\" is not one of"));
     EXPECT_THAT(unknown.err, HasSubstr("did you mean 'star'?"));
     file.field.aperture = Aperture(*parseAperture("polygon 6", {}));
     writeField(dir_.file("a.exr"), file.field, file.details, monitor);

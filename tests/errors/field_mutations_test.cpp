@@ -1,5 +1,5 @@
 // Random damage to valid light field files: the readers, and what comes after them, succeed or throw Error.
-// And what the fuzzers found once stays mended.
+// What the fuzzers once found stays fixed.
 #include "support/damage.h"
 #include "support/field_samples.h"
 #include "support/fuzz_targets.h"

@@ -80,7 +80,7 @@ TEST(LensErrors, wrongCameras) {
               "s.pbrt:2:1: Camera \"realistic\" has no parameter 'fov', or none that is supported");
     EXPECT_EQ(camera("\"string aperture\" \"star\""), "");
     EXPECT_THAT(camera("\"string aperture\" \"sta\""),
-                testing::StartsWith("s.pbrt:2:1: aperture \"sta\" is none of"));
+                testing::StartsWith("s.pbrt:2:1: aperture \"sta\" is not one of"));
     test::RecordingMonitor monitor;
     readSceneText("Camera \"realistic\" \"string lensfile\" \"" + dir.file("lens.dat") +
                       "\" \"float aperturediameter\" 12 WorldBegin",

@@ -83,7 +83,7 @@ TEST_F(RenderErrors, unknownDeviceGivesStatusFour) {
 }
 
 TEST_F(RenderErrors, unwritableOutputsGiveStatusFiveBeforeTracing) {
-    // Were anything traced, this many samples would take minutes.
+    // If anything were traced, this many samples would take minutes.
     const std::vector<std::string> job = {"reference", kSpheres, "--spp", "65536"};
     for (const std::string& output :
          {dir_.file("no/out.exr"), dir_.path().string(), kSpheres + std::string("/a.exr")})
@@ -105,7 +105,7 @@ TEST_F(RenderErrors, fullDiscGivesStatusFive) {
 TEST_F(RenderErrors, jobsBeyondTheirMemoryGiveStatusFive) {
     EXPECT_THAT(renderFails(5, kSpheres, {"--device", "cpu", "--spp", "60000", "-o", output_}).err,
                 HasSubstr("60000 samples"));
-    // Tracing would refuse so many samples too, were it reached.
+    // Tracing, if it were reached, would refuse this many samples too.
     for (const char* method : {"box", "full"})
         EXPECT_THAT(renderFails(5, emptyScene(8000, 3),
                                 {"--device", "cpu", "--spp", "60000", "--memory", "16M", "--method", method,

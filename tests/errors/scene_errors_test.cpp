@@ -52,7 +52,7 @@ TEST(SceneErrors, structure) {
         {"Attribute \"shapes\"", ":1:11: unknown attribute target \"shapes\", did you mean 'shape'?"},
         {"Option \"sed\" 1", ":1:8: unknown option \"sed\", did you mean 'seed'?"},
         {"Option \"seed\"", ":1:14: expected the value of option \"seed\", found the end of the file"},
-        {"Option \"forcediffuse\" true", ":1:23: option \"forcediffuse\" is not supported but as false"},
+        {"Option \"forcediffuse\" true", ":1:23: option \"forcediffuse\" is supported only as false"},
         {"ColorSpace \"aces2065-1\"", ":1:12: colour space \"aces2065-1\" is not supported, only \"srgb\""},
         {"MediumInterface \"\" \"fog\"", ":1:20: participating media are not supported, only \"\""},
         {"MakeNamedMedium \"fog\"",
@@ -82,7 +82,7 @@ TEST(SceneErrors, parameterLists) {
             {"\"float the radius\" 1",
              ":2:16: expected a parameter such as \"float radius\", found \"float the radius\""},
             {"\"flaot radius\" 1", ":2:16: unknown parameter type 'flaot', did you mean 'float'?"},
-            {"\"color radius\" 1", ":2:16: parameter type 'color' is not of pbrt-v4; did you mean 'rgb'?"},
+            {"\"color radius\" 1", ":2:16: parameter type 'color' is not from pbrt-v4; did you mean 'rgb'?"},
             {"\"integer radius\" 1",
              ":2:16: 'radius' of Shape \"sphere\" is given as integer, but must be float"},
             {"\"integer radius\" 1.5", ":2:33: expected an integer, found '1.5'"},
@@ -171,7 +171,8 @@ TEST(SceneErrors, options) {
         {"Camera \"perspective\" \"float shutteropen\" 1 WorldBegin",
          ":1:1: the shutter never opens: 'shutterclose' must be after 'shutteropen'"},
         {"Camera \"perspective\" \"string aperture\" \"pentagram\" WorldBegin",
-         ":1:22: aperture \"pentagram\" is none of disc, gaussian, square, pentagon, star, polygon and no "
+         ":1:22: aperture \"pentagram\" is not one of disc, gaussian, square, pentagon, star, polygon, nor "
+         "an "
          "image file, did you mean 'pentagon'?"},
         {"Camera \"perspective\" \"string aperture\" \"polygon 2\" WorldBegin",
          ":1:22: aperture \"polygon 2\" is not \"polygon BLADES\" or \"polygon BLADES DEGREES\" with 3 to "
@@ -180,7 +181,7 @@ TEST(SceneErrors, options) {
          ":1:22: aperture \"polygon\" is not \"polygon BLADES\" or \"polygon BLADES DEGREES\" with 3 to "
          "100 blades and at most 360 degrees"},
         {"Camera \"perspective\" \"string aperture\" \"image 12\" WorldBegin",
-         ":1:22: aperture \"image 12\" is none of disc, gaussian, square, pentagon, star, polygon and no "
+         ":1:22: aperture \"image 12\" is not one of disc, gaussian, square, pentagon, star, polygon, nor an "
          "image file"},
         {"Camera \"perspective\" \"float focaldist\" 1 WorldBegin",
          ":1:22: Camera \"perspective\" has no parameter 'focaldist', or none that is supported"},

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Installs what the fuzzers need, builds them and runs each for some seconds:
-#     bash tests/fuzz/run.sh [SECONDS]        600 each unless told
-# Corpora grow under build/fuzz/corpus. What is found stops the run and is left as a file there; once mended, it goes
-# to tests/fuzz/seeds/NAME, which the normal tests replay.
+#     bash tests/fuzz/run.sh [SECONDS]        600 each by default
+# Corpora grow under build/fuzz/corpus. A finding stops the run and is left as a file there; once fixed, it goes to
+# tests/fuzz/seeds/NAME, which the normal tests replay.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 seconds="${1:-600}"

@@ -1,4 +1,4 @@
-// The plumbing of the compute room on a real device: copies, dispatches, and what it refuses.
+// The basics of the compute room on a real device: copies, dispatches, and what it refuses.
 #include "compute/command_list.h"
 #include "compute/vulkan.h"
 #include "shared/scan.h"
@@ -207,7 +207,7 @@ TEST_F(ComputeTest, choosesByPartOfTheName) {
                 [] { Device({.name = "banana"}); });
 }
 
-// What is broken here is the test's doing: it proves that validation is on and that its findings are thrown.
+// This test breaks a rule on purpose: it proves that validation is on and that its findings are thrown.
 TEST_F(ComputeTest, validationFindsWrongUsage) {
     Device::Impl& vulkan = device().impl();
     const vk::raii::Buffer buffer(vulkan.device,
@@ -219,7 +219,7 @@ TEST_F(ComputeTest, validationFindsWrongUsage) {
                                     vk::BufferViewCreateInfo({}, *buffer, vk::Format::eR32Uint, 0, 64));
     expectError(ErrorCode::device, "VUID-VkBufferViewCreateInfo-buffer-00932",
                 [&] { device().checkValidation(); });
-    device().checkValidation(); // said once
+    device().checkValidation(); // reported once
 }
 
 // A write after a write without a barrier between them.

@@ -146,7 +146,7 @@ TEST_F(ReconstructParity, filmDoesNotDependOnMemory) {
     }
 }
 
-/// The layer map takes the greater part of the memory; its bands follow from that.
+/// The layer map takes most of the memory; its bands follow from that.
 TEST_F(ReconstructParity, layerMapDoesNotDependOnMemory) {
     const LightField field = makeField({0, 0, 61, 43}, 8);
     ReconstructOptions options = optionsOf(Method::automatic, 64);

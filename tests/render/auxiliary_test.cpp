@@ -1,4 +1,4 @@
-// Auxiliary channels: what they are by the weights of the colours, and the same by every way to a picture.
+// Auxiliary channels: they have the weights of the colours, and are the same on every path to a picture.
 #include "image/exr.h"
 #include "reconstruct/cpu_reconstructor.h"
 #include "render/auxiliary.h"

@@ -1,6 +1,6 @@
-// What the README files promise: every command in an ```sh block runs as it stands there, the blocks of one
-// file in their order in one empty folder; every relative link of any .md file leads somewhere; and the front
-// README stays short.
+// What the README files promise: every command in an ```sh block runs as written, the blocks of one file in
+// their order in one empty folder; every relative link of any .md file leads somewhere; and the front README
+// stays short.
 #include "support/run_program.h"
 
 #include <algorithm>
@@ -79,7 +79,7 @@ bool startsWithAny(const std::string& text, std::initializer_list<const char*> h
     return std::ranges::any_of(heads, [&](const char* head) { return text.starts_with(head); });
 }
 
-/// The command with what makes it quick.
+/// The command with options that make it quick.
 std::string shortened(std::string command) {
     const bool renders =
         startsWithAny(command, {"slant render scenes/", "slant reference scenes/", "slant sample scenes/"});
@@ -112,7 +112,7 @@ TEST(Readme, commandsAreFound) {
     EXPECT_GE(documentsWithCommands().size(), 5u);
 }
 
-/// What a heading is called in a link: as GitHub has it.
+/// The anchor of a heading in a link, as GitHub forms it.
 std::string anchorOf(const std::string& heading) {
     std::string anchor;
     for (const unsigned char c : heading.substr(heading.find_first_not_of("# "))) {

@@ -71,7 +71,7 @@ TEST_P(LampThrough, theApertureIsItsShape) {
         EXPECT_LT(compare(traced, truth).relMse, 0.25 * filtered) << nameOf(method);
         EXPECT_LT(compare(narrowed, truth).relMse, 0.25 * filtered) << nameOf(method);
     }
-    // Another shape is another picture.
+    // Another shape gives another picture.
     EXPECT_GT(compare(reconstruct(lamp(8, 1, aperture), Method::full, Aperture()), truth).relMse,
               0.4 * filtered);
 }

@@ -1,5 +1,5 @@
-// The rim of a picture under wide pixel filters and heavy blur: as near to brute force as the same pixels are
-// inside a larger picture.
+// The border of a picture under wide pixel filters and heavy blur: as close to brute force as the same pixels
+// are inside a larger picture.
 #include "render/brute_force.h"
 #include "render/render.h"
 #include "support/synthetic.h"
@@ -15,7 +15,7 @@ namespace {
 constexpr int kWidth = 72, kHeight = 60, kRimPx = 4;
 const Rect kCrop{20, 18, 50, 40};
 
-/// Shining squares side by side, of greys and sizes by chance, across the whole view and beyond it.
+/// Emitting squares side by side, with random greys and sizes, across the whole view and beyond it.
 void addSquares(Scene& scene, double z, double pitch, double cover, std::uint32_t seed) {
     synthetic::Random random(seed);
     for (int y = -12; y <= 12; ++y)
@@ -40,7 +40,7 @@ void addSquares(Scene& scene, double z, double pitch, double cover, std::uint32_
 Scene sceneOf(const PixelFilter& filter, float lensRadius) {
     Scene scene = testing::emptyScene(kWidth, kHeight);
     scene.lights.clear();
-    scene.textures[0].value = glm::vec3(0); // surfaces shine and reflect nothing
+    scene.textures[0].value = glm::vec3(0); // surfaces emit and reflect nothing
     scene.filter = filter;
     scene.camera.lensRadius = lensRadius;
     scene.camera.focalDistance = 6;

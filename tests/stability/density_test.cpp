@@ -1,5 +1,5 @@
 // Fields whose pixels differ in their number of samples: no holes, no drift, and everywhere as exact as a
-// field that has as many samples in all pixels.
+// field with equally many samples in all pixels.
 #include "reconstruct/cpu_reconstructor.h"
 #include "reconstruct/grid.h"
 #include "support/intermediates.h"

@@ -83,7 +83,7 @@ TEST(FilterTable, massIsTheIntegral) {
     }
 }
 
-/// A sample that stands for a whole pixel weighs what samples all over that pixel weigh on average.
+/// A sample that stands for a whole pixel has the mean weight of samples all over that pixel.
 TEST(FilterTable, meansOverPixelsAddUpToTheIntegral) {
     for (const Known& known : knownFilters()) {
         const FilterTable table = makeFilterTable(known.filter);

@@ -20,7 +20,7 @@ struct Case {
     const char* aperture;
 };
 
-/// A shining rectangle across the axis.
+/// An emitting rectangle across the axis.
 void addRectangle(Scene& scene, glm::dvec3 centre, glm::dvec2 half, float radiance) {
     Mesh mesh;
     mesh.kind = Mesh::Kind::bilinearPatches;
@@ -35,8 +35,8 @@ void addRectangle(Scene& scene, glm::dvec3 centre, glm::dvec2 half, float radian
     scene.shapes.push_back(shape);
 }
 
-/// A plane out of focus with strips before it, in focus and nearer, in greys that differ little: so no noise
-/// of shading, and little of where samples happen to lie.
+/// A plane out of focus with strips in front of it, in focus and nearer, in greys that differ little: so
+/// there is no noise from shading, and little from where samples happen to lie.
 Scene sceneOf(const Case& c) {
     Scene scene = testing::emptyScene(kWidth, kHeight);
     scene.film.diagonalMm = c.diagonalMm;
@@ -46,7 +46,7 @@ Scene sceneOf(const Case& c) {
     scene.realistic->focusDistance = c.focusDistance;
     scene.realistic->aperture = parseAperture(c.aperture, {}).value();
     scene.lights.clear();
-    scene.textures[0].value = glm::vec3(0); // surfaces shine and reflect nothing
+    scene.textures[0].value = glm::vec3(0); // surfaces emit and reflect nothing
     const double f = c.focusDistance, wide = f / 40 * (c.focusDistance < 0.5 ? 4 : 1), all = 40 * f;
     addRectangle(scene, {0, 0, 2 * f}, glm::dvec2(all), 1);
     for (int i = -3; i <= 3; ++i) {

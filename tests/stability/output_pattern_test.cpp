@@ -92,7 +92,7 @@ TEST(OutputPattern, positionAndTimeAreStratified) {
     }
 }
 
-/// Where blur is small only the first of each group are made.
+/// Where blur is small, only the first outputs of each group are made.
 TEST(OutputPattern, theFirstOfAllGroupsAreStratifiedToo) {
     for (const int count : {8, 64, 128, 1024}) {
         const OutputPattern pattern = makeOutputPattern(count, 5);

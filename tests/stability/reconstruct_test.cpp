@@ -1,4 +1,4 @@
-// What must hold of a reconstruction whatever the field: constants stay, order is nothing, brightness stays,
+// What must hold for a reconstruction of any field: constants stay, order does not matter, brightness stays,
 // and the error falls.
 #include "image/metrics.h"
 #include "reconstruct/cpu_reconstructor.h"
@@ -64,7 +64,7 @@ TEST(ReconstructStability, orderWithinAPixelIsNothing) {
 
 TEST(ReconstructStability, brightnessStays) {
     const double exact = meanOf(manySamples());
-    // From 1 sample a pixel the field alone is 0.5 % off, as its plain mean shows.
+    // With 1 sample per pixel the field itself is 0.5 % off, as its plain mean shows.
     for (const Method method : kReconstructions)
         for (const auto& [spp, bound] : {std::pair(1, 0.01), {4, 0.005}, {16, 0.005}, {64, 0.005}})
             EXPECT_NEAR(meanOf(reconstruct(discs(kFrame, spp, 21), method, 64)) / exact, 1, bound)
@@ -79,7 +79,7 @@ TEST(ReconstructStability, fourSamplesReconstructedBeatSixteenFiltered) {
             << nameOf(method);
 }
 
-/// The truth is the field of a lens that much smaller.
+/// The truth is the field of a lens smaller by that factor.
 TEST(ReconstructStability, smallerAperturesComeFromTheSameSamples) {
     const LightField field = discs(kFrame, 16, 1);
     for (const float lensScale : {0.5f, 0.f}) {
@@ -96,7 +96,7 @@ TEST(ReconstructStability, smallerAperturesComeFromTheSameSamples) {
 }
 
 /// A bright strip that is seen past the blurred edge of a dark thing in front: solid, though most of its
-/// samples are hidden. Weighed by its bare density it let the black ground through, up to 6 % of its light.
+/// samples are hidden. Weighted by its bare density it let the black ground through, up to 6 % of its light.
 TEST(ReconstructStability, stripBehindABlurredEdgeIsSolid) {
     const auto colour = [](float value) { return [value](vec2) { return vec3(value); }; };
     const std::vector<synthetic::Layer> layers = {{-8, [](vec2 p) { return p.x < 46; }, colour(0.1f)},
@@ -117,12 +117,12 @@ TEST(ReconstructStability, stripBehindABlurredEdgeIsSolid) {
                 wanted += truth.pixels[3 * std::size_t(y * kFrame.width() + x)];
             }
             EXPECT_NEAR(got / 56, wanted / 56, 0.012)
-                << nameOf(method) << ", x " << x << ", " << spp << " samples a pixel";
+                << nameOf(method) << ", x " << x << ", " << spp << " samples per pixel";
         }
     }
 }
 
-/// Bright discs, some smaller than the distance of the samples, neither grow nor fade.
+/// Bright discs, some smaller than the distance between samples, neither grow nor fade.
 TEST(ReconstructStability, smallDiscsKeepTheirBrightness) {
     const auto colour = [](float value) { return [value](vec2) { return vec3(value); }; };
     for (const float radius : {0.4f, 0.8f, 1.6f, 3.f})

@@ -1,4 +1,4 @@
-// A field traced once, seen through a lens focused elsewhere: as if it had been traced so.
+// A field traced once, seen through a lens focused elsewhere, is as if it had been traced that way.
 #include "image/metrics.h"
 #include "lightfield/refocus.h"
 #include "reconstruct/cpu_reconstructor.h"
@@ -114,8 +114,8 @@ TEST(Refocus, picturesDoNotDependOnThoseBefore) {
     }
 }
 
-/// Where all samples are kept for any focus the grid lies elsewhere: a few outputs at rims come out
-/// otherwise.
+/// If all samples are kept for any focus, the grid lies elsewhere: a few outputs at rims come out
+/// differently.
 TEST(Refocus, atTheTracedFocusChangesNothing) {
     const LightField field = traced(19.5f, 4, 1);
     for (const Method method : {Method::full, Method::automatic}) {

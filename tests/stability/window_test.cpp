@@ -1,4 +1,4 @@
-// The method `window` against the words of its description in double precision, and where it fails.
+// The method `window` against its description, carried out in double precision, and where it fails.
 #include "lib/gaussian.glsl"
 #include "reconstruct/cpu_reconstructor.h"
 #include "reconstruct/window.h"
@@ -48,7 +48,7 @@ bool crossing(const Point& a, const Point& b, double step) {
     return order(step, step) != order(-step, -step) || orderY(step, step) != orderY(-step, -step);
 }
 
-/// Whether a triangle of the points holds the output.
+/// Whether a triangle of the points contains the output.
 bool covers(const Points& s) {
     const auto left = [](const Point& a, const Point& b) { return a.x * b.y - a.y * b.x > 0; };
     for (std::size_t a = 0; a < s.size(); ++a)
@@ -101,7 +101,7 @@ TEST(Window, equalsItsDescriptionInDoublePrecision) {
                     parted += got.outcome == WindowOutcome::parted;
                     holes += got.outcome == WindowOutcome::hole;
                 }
-        // Where a comparison is decided by rounding, all of an output may differ.
+        // Where rounding decides a comparison, an output may differ completely.
         EXPECT_LE(different, outputs / 500) << spp;
         EXPECT_GT(parted, outputs / 20) << spp;
         EXPECT_GT(holes, 0) << spp;

@@ -1,4 +1,4 @@
-// What an output sees in the words of host/reconstruct/README.md: over all samples of a light field, in
+// What an output sees, as host/reconstruct/README.md describes it: from all samples of a light field, in
 // double precision, without bins, bricks or lists.
 #pragma once
 #include "reconstruct/bins.h"
@@ -13,7 +13,7 @@
 
 namespace slant::test {
 
-/// Whether the convex hull of points holds the origin: no half plane is without one.
+/// Whether the convex hull of points contains the origin: every half plane has a point.
 inline bool surroundOrigin(std::span<const glm::dvec2> points) {
     std::vector<double> angles;
     for (const glm::dvec2 p : points) angles.push_back(std::atan2(p.y, p.x));
@@ -89,7 +89,7 @@ public:
         return found;
     }
 
-    /// Parted where slopes leave a gap.
+    /// Split at gaps in slope.
     std::vector<Surface> surfaces(const Output& o, double searchRadius, double maxRatio = 1e30) const {
         std::vector<Surface> parted;
         for (const Seen& s : seen(o, searchRadius, maxRatio)) {
@@ -100,7 +100,7 @@ public:
         return parted;
     }
 
-    /// Of a surface all around, what the weights of a tent of radius `base` and height 1 add up to: pi / 3
+    /// For a surface all around, the sum of the weights of a tent with radius `base` and height 1: pi / 3
     /// base^2 samples.
     double fullWeight(double base) const {
         const double density = double(kSearchRadius) * double(kSearchRadius) / (radius * radius);
@@ -127,13 +127,13 @@ public:
         return surroundOrigin(offsets);
     }
 
-    /// By the samples within twice the base radius.
+    /// From the samples within twice the base radius.
     bool isSolid(const Surface& surface, double base) const {
         return surrounds(surface) &&
                shares(surface, base).outer >= double(kSolidOuter) * 8 * fullWeight(base);
     }
 
-    /// The only surface within R, or the front one where it is solid; nothing where that does not say it.
+    /// The only surface within R, or the front one if it is solid; nothing if that does not decide.
     std::optional<glm::dvec3> nearest(const Output& o) const {
         const std::vector<Surface> parted = surfaces(o, radius);
         if (parted.empty()) return {};
@@ -144,7 +144,7 @@ public:
         return front.innerRgb / front.inner;
     }
 
-    /// All surfaces within twice the base radius, over one another; nothing where there are none.
+    /// All surfaces within twice the base radius, composited; nothing if there are none.
     std::optional<glm::dvec3> visible(const Output& o, double base) const {
         const std::vector<Surface> parted = surfaces(o, 2 * base);
         if (parted.empty()) return {};

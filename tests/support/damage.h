@@ -1,4 +1,4 @@
-// Random damage to files that are right.
+// Random damage to valid files.
 #pragma once
 #include <gtest/gtest.h>
 #include <random>

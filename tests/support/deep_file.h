@@ -17,8 +17,8 @@
 
 namespace slant::test {
 
-/// A field of 5 x 4 pixels from (0, 0): every channel is the same number throughout, but raster.x and
-/// raster.y, which are the centres of pixels.
+/// A field of 5 x 4 pixels from (0, 0): every channel is constant, except raster.x and raster.y, which are
+/// the centres of pixels.
 struct DeepFile {
     Imf::Header header{5, 4};
     std::map<std::string, float> channels = {{"R", 0.5f},     {"G", 0.25f},    {"B", 1},      {"Z", 4},

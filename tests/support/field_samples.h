@@ -8,7 +8,7 @@
 
 namespace slant::test {
 
-/// Overscan, negative coordinates, background, rubbish in some samples, and every detail set.
+/// Overscan, negative coordinates, background, garbage in some samples, and every detail set.
 inline FieldFile richField(int spp = 3) {
     FieldFile file;
     LightField& field = file.field;

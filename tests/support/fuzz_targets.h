@@ -31,7 +31,7 @@ inline bool fuzzPly(const std::string& bytes) {
     return accepts([&] { parsePly(bytes, "fuzz.ply"); });
 }
 
-/// What is accepted goes through what comes next, if it is small.
+/// What is accepted goes through the next stages, if it is small.
 inline void useField(LightField& field) {
     summarize(field);
     sanitize(field);

@@ -1,4 +1,4 @@
-// What a reconstruction makes, kept whole, and two such runs held against each other.
+// All intermediates of a reconstruction, kept, and the comparison of two such runs.
 #pragma once
 #include "reconstruct/prepared_field.h"
 

@@ -38,7 +38,7 @@ private:
 };
 
 /// Five vertices (x y z nx ny nz u v and a colour), three faces (triangle, quad, pentagon) with a flag, and
-/// an element that nobody reads.
+/// an element that nothing reads.
 inline std::string samplePly(PlyFormat format) {
     const char* names[] = {"ascii", "binary_little_endian", "binary_big_endian"};
     PlyWriter body(format);

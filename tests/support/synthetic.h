@@ -1,4 +1,4 @@
-// Light fields whose answer is known: layers of constant slope, front to back, each an inside test and a
+// Light fields whose picture is known: layers of constant slope, front to back, each an inside test and a
 // colour over pinhole position, sampled by a jittered pattern.
 #pragma once
 #include "lightfield/lightfield.h"
@@ -85,7 +85,7 @@ inline LightField sample(const std::vector<Layer>& layers, Rect frame, int overs
     return field;
 }
 
-/// As many in every pixel.
+/// Equally many in every pixel.
 inline LightField sample(const std::vector<Layer>& layers, Rect frame, int overscan, int spp,
                          std::uint32_t seed, const Aperture& aperture = {}) {
     return sample(
@@ -97,7 +97,7 @@ inline std::uint32_t pixelHash(int x, int y) {
     return Random(std::uint32_t(x * 7919 + y * 104729 + 77)).bits();
 }
 
-/// Sample counts of adaptive renderers, at their worst.
+/// Sample counts like those of adaptive renderers, at their worst.
 struct Counts {
     const char* name;
     std::function<int(int x, int y)> at;

@@ -13,7 +13,7 @@ namespace {
 
 using glm::vec2;
 
-/// A picture of `side` pixels a side.
+/// A picture with `side` pixels per side.
 template <typename Value>
 Image picture(int side, const Value& value) {
     Image image({0, 0, side, side}, {"Y"});
@@ -92,7 +92,7 @@ TEST(Aperture, positionsAreWhereLightPasses) {
     std::uniform_real_distribution<float> unit(-1, 1);
     for (const Aperture& aperture : allShapes())
         for (int i = 0; i < 2000; ++i) {
-            // A hair inwards: rounding may put a place of the rim outside.
+            // Slightly inwards: rounding may put a place on the rim outside.
             const vec2 square = 0.9999f * vec2(unit(random), unit(random));
             EXPECT_GT(aperture.transmission(aperture.at(square)), 0) << aperture.shape().name;
         }

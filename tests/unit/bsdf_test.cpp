@@ -1,6 +1,5 @@
-// Scattering: energy, reciprocity, and that values, densities and samples are about the same thing. The
-// coated diffuse material is compared with a random walk through its layers that shares no formula of its
-// expectation.
+// Scattering: energy, reciprocity, and that values, densities and samples agree. The coated diffuse material
+// is compared with a random walk through its layers that shares no formula with its expectation.
 #include "shading_scene.h"
 
 #include <gtest/gtest.h>

@@ -13,7 +13,7 @@ namespace {
 
 const Rect kFrame{0, 0, 44, 36};
 
-/// A sweep that keeps all it is shown. Samples are known by their colours.
+/// A sweep that keeps all candidates. Colours identify samples.
 struct KeepingKernels : BinFetches {
     struct Sweep {
         bool running = true;
@@ -113,7 +113,7 @@ TEST(Candidates, areAllSamplesThatLandWithinTheRadius) {
     }
 }
 
-/// The layer map does not look through less than a texel.
+/// The layer map does not search within less than a texel.
 TEST(Candidates, radiiNarrowNoFurtherThanAsked) {
     int narrower = 0;
     for (const Field& f : fields()) {

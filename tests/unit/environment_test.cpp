@@ -24,7 +24,7 @@ TEST(Octahedral, mapsBackAndKeepsAreas) {
     EXPECT_NEAR(glm::distance(equalAreaSquareToSphere({0, 0}), glm::vec3(0, 0, -1)), 0, 1e-6f);
     EXPECT_NEAR(glm::distance(equalAreaSquareToSphere({1, 0.5f}), glm::vec3(1, 0, 0)), 0, 1e-6f);
     EXPECT_NEAR(glm::distance(equalAreaSquareToSphere({0.5f, 1}), glm::vec3(0, 1, 0)), 0, 1e-6f);
-    // Equal areas: the part of random points in a cap is the cap's part of the sphere.
+    // Equal areas: the share of random points in a cap is the cap's share of the sphere.
     glm::vec3 axis = glm::normalize(glm::vec3(1, 2, -0.7f));
     Estimate e = average(
         200000, [&] { return glm::dot(equalAreaSquareToSphere(random.next2D()), axis) > 0.6f ? 1.0 : 0.0; });
@@ -49,7 +49,7 @@ TEST(Environment, samplesFollowTheirDensityAndGiveTheIrradiance) {
     Random random;
     double mass = 0, truth = 0;
     glm::dvec3 mean(0);
-    constexpr int kSteps = 680; // a whole number a texel
+    constexpr int kSteps = 680; // a whole number per texel
     for (int i = 0; i < kSteps; ++i)
         for (int j = 0; j < kSteps; ++j) {
             glm::vec3 d = glm::mat3(turn) * equalAreaSquareToSphere((glm::vec2(i, j) + 0.5f) / float(kSteps));

@@ -129,23 +129,25 @@ TEST_F(FieldFiles, lensMapsThatAreNoneAreRefused) {
             test::expectError(ErrorCode::badInput, message, [&] { read(name); });
         }
     };
-    refused("another length", [](auto& texels) { texels.pop_back(); });
-    refused("another length", [](auto& texels) { texels[1].y = 3; });
+    refused("does not have the length", [](auto& texels) { texels.pop_back(); });
+    refused("does not have the length", [](auto& texels) { texels[1].y = 3; });
     refused("too short", [](auto& texels) { texels.resize(1); });
     refused("counts or steps", [](auto& texels) { texels[0].w = 1.5f; });
     refused("counts or steps", [](auto& texels) { texels[0].z = -1; });
     refused("counts or steps", [](auto& texels) { texels[1].w = 1e30f; });
     refused("below 0", [](auto& texels) { texels[3].y = 0; });
     refused("below 0", [](auto& texels) { texels[4].w = -1; });
-    refused("another length", [](auto& texels) { texels[2].x = 1; });
+    refused("does not have the length", [](auto& texels) { texels[2].x = 1; });
     refused(
-        "another length", [](auto& texels) { texels.resize(texels.size() - 8); }, true);
+        "does not have the length", [](auto& texels) { texels.resize(texels.size() - 8); }, true);
     refused(
         "irradiance below 0", [](auto& texels) { texels.back().x = -1; }, true);
     refused(
-        "share that is none", [](auto& texels) { texels.back().z = 1.5f; }, true);
+        "invalid share", [](auto& texels) { texels.back().z = 1.5f; }, true);
     refused("not finite", [](auto& texels) { texels[5].x = std::numeric_limits<float>::infinity(); });
-    test::expectError(ErrorCode::badInput, "no fours", [&] { lensMapOf({"a"}, std::array{1.f, 2.f}); });
+    test::expectError(ErrorCode::badInput, "not a multiple of 4", [&] {
+        lensMapOf({"a"}, std::array{1.f, 2.f});
+    });
 }
 
 TEST_F(FieldFiles, everyFilterAndAnEmptyDescription) {

@@ -1,4 +1,4 @@
-// FLIP against what the paper says of it, with values worked out from its formulas by hand.
+// FLIP against the paper, with values worked out by hand from its formulas.
 #include "image/flip.h"
 
 #include "support/expect_error.h"

@@ -75,7 +75,7 @@ TEST(Geometry, instancesEqualTransformedShapes) {
         SurfaceHit hitA, hitB;
         bool metA = a.intersect(ray, hitA), metB = b.intersect(ray, hitB);
         if (metA != metB || (metA && std::abs(hitA.t - hitB.t) > 1e-3f)) {
-            ++differ; // a silhouette by a hair
+            ++differ; // just at a silhouette
             continue;
         }
         if (!metA) continue;

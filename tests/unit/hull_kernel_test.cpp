@@ -16,8 +16,8 @@ bool surrounded(const Points& points) {
     return surrounds(hull);
 }
 
-/// Whether a triangle of the points holds the origin inside. Products of floats are exact in double
-/// precision, and so are the signs of their differences.
+/// Whether a triangle of the points has the origin inside. Products of floats are exact in double precision,
+/// and so are the signs of their differences.
 bool heldByATriangle(const Points& points) {
     const auto left = [](glm::dvec2 a, glm::dvec2 b) {
         const double ab = a.x * b.y, ba = a.y * b.x;
@@ -53,7 +53,7 @@ TEST(Hull, surroundsWhatATriangleHolds) {
     int held = 0, rounds = 0;
     for (int count = 0; count <= 14; ++count)
         for (int i = 0; i < 2000; ++i, ++rounds) {
-            // Around places off the output, so that about half of the hulls hold it.
+            // Around places off the output, so that about half of the hulls contain it.
             const vec2 middle(between(random, -1, 1), between(random, -1, 1));
             Points points;
             for (int k = 0; k < count; ++k)
@@ -66,7 +66,7 @@ TEST(Hull, surroundsWhatATriangleHolds) {
     EXPECT_LT(held, rounds * 3 / 4);
 }
 
-/// Small whole numbers: many points lie on axes, on lines through the output, upon each other.
+/// Small whole numbers: many points lie on axes, on lines through the output, or on each other.
 TEST(Hull, surroundsWhatATriangleHoldsOnAGridToo) {
     synthetic::Random random(2);
     int held = 0, rims = 0;

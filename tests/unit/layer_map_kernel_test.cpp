@@ -122,7 +122,7 @@ std::vector<MapTexel> someChildren(Draw& draw) {
     return children;
 }
 
-/// What is left of four texels: their layers, parted at gaps, each a mean by coverage.
+/// What is left of four texels: their layers, split at gaps, each a mean weighted by coverage.
 std::vector<Layer> meanOf(std::vector<MapLayer> layers, double gap) {
     std::sort(layers.begin(), layers.end(),
               [](const MapLayer& a, const MapLayer& b) { return a.slope < b.slope; });
@@ -233,7 +233,7 @@ struct Made {
     }
 };
 
-/// Without the samples that no output of the frame can see: the map reaches further.
+/// Without the samples that no output of the frame can see: the map reaches farther.
 test::BruteForce truthOf(const Made& made) {
     test::BruteForce truth(made.field, made.bins);
     std::erase_if(truth.samples, [](const auto& s) { return !s.binned; });

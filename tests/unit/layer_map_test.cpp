@@ -1,4 +1,4 @@
-// The layer map on light fields whose surfaces are known, and what is taken from it.
+// The layer map on light fields whose surfaces are known, and the outputs taken from it.
 #include "lib/map_texel.glsl"
 #include "reconstruct/map_lookup.h"
 #include "reconstruct/plan.h"
@@ -57,7 +57,7 @@ TEST(LayerMap, texelsHoldWhatIsSeenAndWhatIsHidden) {
         EXPECT_EQ(f.map.layout.texelsPerPixel, spp == 1 ? 1 : 2) << "no closer than samples need";
         ASSERT_GE(f.map.layout.levels, 2);
         for (int level = 0; level < f.map.layout.levels; ++level) {
-            SCOPED_TRACE(fmt::format("{} samples a pixel, level {}", spp, level));
+            SCOPED_TRACE(fmt::format("{} samples per pixel, level {}", spp, level));
             // Seen past the edge from the other side of the lens: hidden at the centre, 4 + 9 px deep.
             const MapTexel edge = f.texel(vec2(24, 24), level);
             ASSERT_EQ(edge.count, 2);

@@ -1,5 +1,5 @@
-// Structs of push constants lie in memory as the shaders see them. A new one is added to kLayouts: the test
-// fails on a shader whose struct it does not know.
+// Structs of push constants lie in memory as the shaders see them. Add new ones to kLayouts: the test fails
+// on a shader whose struct it does not know.
 #include "compute/spirv.h"
 #include "shared/layer_map.h"
 #include "shared/radix.h"

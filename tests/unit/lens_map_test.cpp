@@ -1,4 +1,4 @@
-// The lens map: against exact rays through the lens, and as outputs, lists and samples use it.
+// The lens map: against exact rays through the lens, and in its use by outputs, lists and samples.
 #include "camera/compound_lens.h"
 #include "camera/disc.h"
 #include "reconstruct/lens_tiles.h"
@@ -138,7 +138,7 @@ TEST_P(LensMapOf, tilesSeeTheBricksOfWhatTheirOutputsSee) {
         ++looked;
     }
     ASSERT_GT(looked, 15000);
-    EXPECT_LT(seen / looked, std::string(GetParam()) == "fisheye-10mm" ? 80 : 40) << "tiles a brick";
+    EXPECT_LT(seen / looked, std::string(GetParam()) == "fisheye-10mm" ? 80 : 40) << "tiles per brick";
 }
 
 TEST_P(LensMapOf, samplesOnTheScenesSideKeepTheRadianceOfTheScene) {

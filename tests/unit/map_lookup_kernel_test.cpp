@@ -31,7 +31,7 @@ struct Plane {
     std::function<bool(vec2)> inside = [](vec2) { return true; };
 };
 
-/// A map of 128 x 96 pixels whose texels hold what planes, front to back, have at their middles.
+/// A map of 128 x 96 pixels whose texels hold the values of planes, front to back, at the texels' centres.
 LayerMap mapOf(const std::vector<Plane>& planes, int levels) {
     GridLayout grid{};
     grid.slopeMin = -20;
@@ -133,7 +133,7 @@ TEST(MapLookup, edgesAreAsWideAsATexel) {
         const double beyond = (double(x.x) + 4 * double(uv.x) - 20) * 2 / (1 << level); // texels
         const double front = std::clamp(0.5 - beyond, 0.0, 1.0);
         const glm::dvec3 expected = front * glm::dvec3(0, 1, 0) + (1 - front) * back;
-        // What shows through less than kOpaque is not looked for.
+        // Surfaces that would show through by less than kOpaque are not looked up.
         ASSERT_LT(apart(glm::dvec3(*lookThrough(map, clusters, x, uv)), expected), kPacked + double(kOpaque))
             << i;
         partly += front > 0.01 && front < 0.99;
@@ -142,7 +142,7 @@ TEST(MapLookup, edgesAreAsWideAsATexel) {
 }
 
 /// A surface of slope a + b x, where a ray through u meets it at (x - a u) / (1 + b u). A few steps come as
-/// near as texels allow.
+/// close as texels allow.
 TEST(MapLookup, settlesWhereASlantedSurfaceHasTheSlopeOfTheRay) {
     const double a = -2, b = 0.06;
     const LayerMap map = mapOf({{[=](vec2 p) { return float(a + b * double(p.x)); }, ramp}}, 1);
@@ -164,7 +164,7 @@ TEST(MapLookup, settlesWhereASlantedSurfaceHasTheSlopeOfTheRay) {
     EXPECT_GT(worstUnsettled, 1);
 }
 
-/// What lib/classify.glsl should find, of the slopes of all samples that are listed.
+/// What lib/classify.glsl should find, from the slopes of all listed samples.
 struct Classified {
     std::vector<Cluster> clusters;
     bool served = true, inFocus = false, sparse = true;
@@ -212,7 +212,7 @@ Classified classified(const Bins& bins, std::span<const uint> bricks, const Lens
     return found;
 }
 
-/// Slopes 2 apart, up to half the picture's width: what is further off shares the last bucket.
+/// Slopes 2 apart, up to half the picture's width: larger ones share the last bucket.
 std::vector<synthetic::Layer> staircase(int steps) {
     std::vector<synthetic::Layer> layers;
     for (int k = 0; k < steps; ++k)

@@ -124,7 +124,7 @@ TEST(Metrics, unlikeImagesAreRefused) {
     expectError(ErrorCode::badInput, "without pixels", [] { compare(Image(), Image()); });
 }
 
-/// Wrong pictures that a comparison must not take for the right one.
+/// Wrong pictures that a comparison must not accept.
 std::vector<std::pair<std::string, Image>> impostors(const Image& truth) {
     const auto changed = [&](const std::function<void(Image&)>& change) {
         Image image = truth;

@@ -40,7 +40,7 @@ TEST(Hash, valuesAreThoseOfTheBeginning) {
     EXPECT_EQ(hash(0x12345678u), 0xf5e71c96u);
 }
 
-/// Each bit of the argument turns each bit of the value in half of all cases. 20,000 draws have a standard
+/// Each bit of the argument flips each bit of the value in half of all cases. 20,000 draws have a standard
 /// deviation of 0.0035.
 TEST(Hash, anyBitChangesHalfOfTheBits) {
     constexpr int kDraws = 20000;
@@ -75,7 +75,7 @@ TEST(OwenScramble, permutesTheStrataOfEveryPowerOfTwo) {
     }
 }
 
-/// Over seeds, a stratum comes to lie anywhere.
+/// Over many seeds, a stratum ends up anywhere.
 TEST(OwenScramble, seedsSpreadAStratumEvenly) {
     std::vector<int> counts(16);
     for (uint seed = 0; seed < 16000; ++seed) ++counts[owenScramble(0x5u, hash(seed)) >> 28];

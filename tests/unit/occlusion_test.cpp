@@ -1,4 +1,5 @@
-// The part of the lens from which samples are visible, where it is known: behind the edge of a half plane.
+// The part of the lens from which samples are visible, in a case where it is known: behind the edge of a half
+// plane.
 #include "reconstruct/occlusion.h"
 #include "support/synthetic.h"
 

@@ -89,7 +89,7 @@ private:
     std::vector<Sphere> spheres_;
 };
 
-/// Only scatters and counts what it meets; lights that cannot be met do not exist for it.
+/// Only scatters and counts the light it hits; it ignores lights that cannot be hit.
 glm::vec3 naivePath(const BruteForce& geometry, const Shading& shading, Ray ray, int maxDepth,
                     Random& random) {
     glm::vec3 radiance(0), throughput(1);

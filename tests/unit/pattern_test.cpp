@@ -105,7 +105,7 @@ TEST(Pattern, leavesNoHoles) {
 }
 
 TEST(Pattern, leavesNoHolesAfterShearing) {
-    // As seen from one lens position the samples are as even as random ones at least: 1.15 x 2 / sqrt(spp).
+    // Seen from one lens position the samples are at least as even as random ones: 1.15 x 2 / sqrt(spp).
     for (int spp : {1, 3, 8})
         for (float slope : {1.f, 7.f, 30.f}) {
             const int size = int(2 * slope) + 24;

@@ -93,14 +93,14 @@ TEST(Ply, saysWhatIsWrongAndWhere) {
     const struct {
         std::string bytes, message;
     } cases[] = {
-        {"", "m.ply:1: this is no PLY file"},
-        {"obj\n", "m.ply:1: this is no PLY file"},
+        {"", "m.ply:1: this is not a PLY file"},
+        {"obj\n", "m.ply:1: this is not a PLY file"},
         {"ply\n", "m.ply:1: the file ends within its PLY header"},
         {"ply\nformat ascii 2.0\n", "m.ply:2: unknown PLY version '2.0'"},
         {"ply\nformat binary 1.0\n", "m.ply:2: unknown PLY format 'binary'"},
-        {"ply\nelement vertex -1\n", "m.ply:2: '-1' is no number of elements"},
+        {"ply\nelement vertex -1\n", "m.ply:2: '-1' is not a number of elements"},
         {"ply\nelement vertex 99999999999999999999999\n",
-         "m.ply:2: '99999999999999999999999' is no number of elements"},
+         "m.ply:2: '99999999999999999999999' is not a number of elements"},
         {"ply\nproperty float x\n", "m.ply:2: a property stands before any element"},
         {"ply\nelement vertex 1\nproperty real x\n", "m.ply:3: unknown PLY type 'real'"},
         {"ply\nelement vertex 1\nproperty list float\n", "m.ply:3: unknown PLY type ''"},

@@ -151,8 +151,8 @@ TEST(Chart, drawsEveryCurveAndTheGains) {
     EXPECT_THAT(svg, testing::StartsWith("<?xml"));
     EXPECT_THAT(svg, testing::EndsWith("</svg>\n\n"));
     for (const char* text :
-         {"it's &lt;A>, 48x27, against 1024 samples a pixel", "full, 64 outputs", "reference", "Pareto front",
-          "relMSE", "full, relMSE 0.001: speed 45\u00d7, accuracy 70\u00d7"})
+         {"it's &lt;A>, 48x27, against 1024 samples per pixel", "full, 64 outputs", "reference",
+          "Pareto front", "relMSE", "full, relMSE 0.001: speed 45\u00d7, accuracy 70\u00d7"})
         EXPECT_TRUE(svg.find(text) != std::string::npos) << text;
     const std::string flip = runGnuplot(chartScript(results.scenes[0], results.points, Figure::flip));
     EXPECT_THAT(flip, HasSubstr("FLIP"));

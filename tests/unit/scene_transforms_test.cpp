@@ -98,9 +98,10 @@ TEST(SceneTransforms, areRefusedWhenTheyMoveOrCannotBeInverted) {
               "s.pbrt:1:16: the transform here has numbers beyond the range of a float");
     EXPECT_EQ(errorOf("Transform [1 0 0 0  0 1 0 0  1 1 0 0  0 0 0 1]"),
               "s.pbrt:1:1: the transform here is singular: it cannot be inverted");
-    EXPECT_EQ(errorOf("Transform [1 0 0 .5  0 1 0 0  0 0 1 0  0 0 0 1]"),
-              "s.pbrt:1:1: this matrix is no affine transform: its 4th, 8th, 12th and 16th number must be 0, "
-              "0, 0 and 1");
+    EXPECT_EQ(
+        errorOf("Transform [1 0 0 .5  0 1 0 0  0 0 1 0  0 0 0 1]"),
+        "s.pbrt:1:1: this matrix is not an affine transform: its 4th, 8th, 12th and 16th number must be 0, "
+        "0, 0 and 1");
     EXPECT_EQ(errorOf("Transform [1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1 5]"),
               "s.pbrt:1:47: expected ']' after 16 numbers, found '5'");
     EXPECT_EQ(errorOf("Rotate 90 0 0 0"), "s.pbrt:1:1: Rotate needs an axis that is not 0 0 0");

@@ -1,10 +1,10 @@
 // The search of the bins (lib/search.glsl, nearest.glsl, visibility.glsl, surface.glsl) against all samples
 // of a field in double precision.
 //
-// Bricks come front to back, samples of one bucket of slopes in any order. So where slopes of one surface
-// spread by less than a bucket, and surfaces lie more than two apart, parting them in the order of bricks is
-// parting them in the order of slopes, and the kernels must give what their description says. Elsewhere few
-// outputs may differ.
+// Bricks come front to back, samples of one bucket of slopes in any order. So if the slopes of one surface
+// spread by less than a bucket, and surfaces are more than two buckets apart, splitting them in the order of
+// bricks is splitting them in the order of slopes, and the kernels must give what their description says.
+// Elsewhere a few outputs may differ.
 #include "reconstruct/search.h"
 #include "support/brute_force.h"
 #include "support/synthetic.h"
@@ -167,7 +167,7 @@ TEST(Search, widerSearchesAreThoseOfBruteForce) {
     }
 }
 
-/// Half of the picture has no samples: there outputs find what they find, or nothing.
+/// Half of the picture has no samples: outputs there find samples across the border, or nothing.
 TEST(Search, findsNothingWhereBruteForceDoesNot) {
     const LightField field = synthetic::sample(
         {{0.1f, [](vec2) { return true; }, [](vec2 p) { return vec3(0.5f + 0.4f * std::sin(p.x)); }}}, kFrame,
@@ -252,7 +252,7 @@ TEST(Search, bruteForceNoticesWhatIsWrong) {
     for (auto& s : unweighted.samples) s.weight = 1;
     EXPECT_GT(visibleOf(bins, unweighted).different, kOutputs / 20);
 
-    test::BruteForce merged = truth; // surfaces are one another's
+    test::BruteForce merged = truth; // surfaces are merged
     merged.gap = 100;
     EXPECT_GT(nearestOf(bins, merged).different, kOutputs / 50);
     EXPECT_GT(visibleOf(bins, merged).different, kOutputs / 20);

@@ -1,5 +1,5 @@
-// Every shader keeps to arithmetic that a driver must carry out as written, so that CPU and compute agree to
-// the bit: nothing that it may fuse or rearrange, and no function whose result is the driver's own choice.
+// Every shader uses only arithmetic that a driver must carry out as written, so that CPU and device agree to
+// the bit: nothing that it may fuse or rearrange, and no function whose result is up to the driver.
 #include "compute/spirv.h"
 
 #include <fmt/format.h>
@@ -35,7 +35,7 @@ const std::map<std::uint32_t, std::string> kForbidden{{spv::OpFRem, "FRem"},
 const std::set<std::uint32_t> kContractible{spv::OpFAdd, spv::OpFSub, spv::OpFMul,
                                             spv::OpFDiv, spv::OpDot,  spv::OpVectorTimesScalar};
 
-/// What in a module leaves its results open; empty if nothing does.
+/// What makes the results of a module undetermined; empty if nothing does.
 std::vector<std::string> objections(const ShaderModule& module) {
     std::set<std::uint32_t> decorated;
     std::vector<std::string> found;

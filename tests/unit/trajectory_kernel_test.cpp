@@ -34,7 +34,7 @@ TEST(Trajectory, isALineThroughItsSample) {
     }
 }
 
-/// Of a box of the lens: as dense as corners and places between them tell.
+/// Of a box of the lens, from its corners and places between them.
 TEST(Trajectory, boundsHoldEveryMotionAndAreMet) {
     Draw draw;
     for (int i = 0; i < 2000; ++i) {

@@ -1,4 +1,4 @@
-// What a sample weighs: the density around it (lib/density.glsl) and the part of the lens from which it is
+// The weight of a sample: the density around it (lib/density.glsl) and the part of the lens from which it is
 // visible (lib/occlusion.glsl), counted over all pixels and all rays in double precision.
 #include "reconstruct/bins.h"
 #include "reconstruct/kernels.h"
@@ -17,8 +17,8 @@ LightField varying(const synthetic::Counts& counts) {
     return synthetic::sample(synthetic::discsOverChecks(), kFrame, 15, counts.at, 3);
 }
 
-/// Samples a pixel of the pixels in a square of the blur's area, 3 x 3 at least; those of the rim stand for
-/// what lies beyond. `nearTie`: where its sides lie in pixels is up to rounding.
+/// Samples per pixel over the pixels in a square of the blur's area, at least 3 x 3; pixels at the rim stand
+/// for those beyond. `nearTie`: rounding decides in which pixels its sides lie.
 double meanCount(const LightField& field, glm::dvec2 p, double slope, bool& nearTie) {
     const double half = std::max(std::sqrt(M_PI) / 2 * std::abs(slope), 1.5);
     ivec2 low, high;
@@ -57,7 +57,7 @@ TEST(DensityKernel, isTheMeanOfAllPixelsInTheSquareOfTheBlur) {
     }
 }
 
-/// Of each plane and block, the followed rays that end before they reach it.
+/// For each plane and block, the followed rays that end before they reach it.
 std::vector<uint> stoppedBefore(const LightField& field, const GridLayout& grid,
                                 const OcclusionLayout& layout) {
     std::vector<uint> stopped(stoppedBlocks(layout));
