@@ -235,7 +235,7 @@ TEST_F(FieldErrors, lensesThatCannotBe) {
         return runSlant(words);
     };
     for (const auto& [words, part] : std::vector<std::pair<std::vector<std::string>, std::string>>{
-             {{"--f-stop", "4"}, "--f-stop needs a field that says its focal length"},
+             {{"--f-stop", "4"}, "--f-stop needs a field that gives its focal length"},
              {{"--pinhole", "--f-stop", "4"}, "--f-stop"},
              {{"--focus-from", "1"}, "--focus-from"},
              {{"--focus-from", "1", "--focus-to", "2", "--frames", "1"}, "--frames"},
