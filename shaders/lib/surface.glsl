@@ -41,7 +41,7 @@ KERNEL vec3 meanOf(IN(Surface) s) {
 }
 
 /// Surfaces composited over one another, front to back.
-struct Layers {
+struct Composite {
     vec3 rgb;
     float transmittance;
 };
@@ -56,10 +56,10 @@ KERNEL bool isSolid(IN(Surface) s, float fullWeight) {
 /// Adds a surface that has another one behind it. Where it is not solid, its coverage is in proportion to
 /// its number of samples: a rim, or an object smaller than R, keeps its area on average and so its
 /// brightness.
-KERNEL void addSurface(INOUT(Layers) layers, IN(Surface) s, float fullWeight) {
+KERNEL void addSurface(INOUT(Composite) composite, IN(Surface) s, float fullWeight) {
     const float opacity = isSolid(s, fullWeight) ? 1.0f : min(s.innerWeight / fullWeight, 1.0f);
-    if (opacity > 0.0f) layers.rgb += layers.transmittance * opacity * meanOf(s);
-    layers.transmittance *= 1.0f - opacity;
+    if (opacity > 0.0f) composite.rgb += composite.transmittance * opacity * meanOf(s);
+    composite.transmittance *= 1.0f - opacity;
 }
 
 SLANT_SHARED_END

@@ -13,13 +13,13 @@
 struct Sweep {
     bool running; // false: nothing behind shows through
     float baseRadius, surfaceGap, fullWeight;
-    Surface surface; // the last one
-    Layers layers;   // those before it
+    Surface surface;     // the last one
+    Composite composite; // of those before it
 };
 
 KERNEL Sweep newSweep(IN(GridLayout) grid, float baseRadius) {
     const float widening = baseRadius / grid.radiusPx;
-    const Layers none = {vec3(0.0f), 1.0f};
+    const Composite none = {vec3(0.0f), 1.0f};
     const Sweep sweep = {true,        baseRadius, grid.surfaceGap, kFullWeight * widening * widening,
                          noSurface(), none};
     return sweep;
@@ -27,9 +27,9 @@ KERNEL Sweep newSweep(IN(GridLayout) grid, float baseRadius) {
 
 KERNEL void visit(IN(Candidate) candidate, INOUT(Sweep) sweep) {
     if (sweep.surface.count > 0 && candidate.slope > sweep.surface.slopeMax + sweep.surfaceGap) {
-        addSurface(sweep.layers, sweep.surface, sweep.fullWeight);
+        addSurface(sweep.composite, sweep.surface, sweep.fullWeight);
         sweep.surface = noSurface();
-        sweep.running = sweep.layers.transmittance > 0.0f;
+        sweep.running = sweep.composite.transmittance > 0.0f;
         if (!sweep.running) return;
     }
     addSample(sweep.surface, candidate, sweep.baseRadius);
@@ -44,9 +44,9 @@ KERNEL bool foundNothing(IN(Sweep) sweep) {
     return sweep.surface.count == 0 && sweep.running;
 }
 
-/// All layers, where there are some.
+/// All surfaces composited, where there are some.
 KERNEL vec3 radianceOf(IN(Sweep) sweep) {
-    vec3 rgb = sweep.layers.rgb;
-    if (sweep.surface.count > 0) rgb += sweep.layers.transmittance * meanOf(sweep.surface);
+    vec3 rgb = sweep.composite.rgb;
+    if (sweep.surface.count > 0) rgb += sweep.composite.transmittance * meanOf(sweep.surface);
     return rgb;
 }
