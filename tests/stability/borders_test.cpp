@@ -71,6 +71,10 @@ struct FilterCase {
     PixelFilter filter;
 };
 
+void PrintTo(const FilterCase& filter, std::ostream* out) {
+    *out << filter.name;
+}
+
 const FilterCase kFilters[] = {{"box", {FilterKind::box, {0.5f, 0.5f}}},
                                {"gaussian3", {FilterKind::gaussian, {3, 3}, 1}},
                                {"mitchell2", {FilterKind::mitchell, {2, 2}}},
