@@ -41,15 +41,16 @@ void FieldDefects::add(const FieldDefects& other) {
     badPosition += other.badPosition;
 }
 
-void SampleSet::resize(std::size_t count, bool guides) {
+void SampleSet::resize(std::size_t count, bool guides, bool moving) {
     samples.resize(count);
     radiance.resize(count);
     albedo.resize(guides ? count : 0);
     normal.resize(guides ? count : 0);
+    motion.resize(moving ? count : 0);
 }
 
 SampleSpans spansOf(SampleSet& set) {
-    return {set.samples, set.radiance, set.albedo, set.normal};
+    return {set.samples, set.radiance, set.albedo, set.normal, set.motion};
 }
 
 void repair(LightFieldSample& s, glm::vec3& radiance, FieldDefects& defects) {

@@ -26,6 +26,15 @@ namespace slant {
 ///
 /// Through a compound lens x, y and u, v are on the film's side (camera/lens_map.h), but points move like
 /// this on the scene's side.
+///
+/// A point that moves in time moves along a straight line in homogeneous coordinates, as perspective has it.
+/// With its pinhole position p = (x, y) - slope (u, v) and its depth w at the sample's own time t, and with
+/// m = SampleSet::motion, at time t'
+///
+///     (p' w', w') = (p w, w) + (t' - t) m,    seen from (u', v') at p' + (C1/w' + C2) (u', v').
+///
+/// So m is in pixels times the unit of w, and in the unit of w, over the whole shutter. Where w is infinite,
+/// m is that of a point at depth 1 in the same direction (a turning camera moves the sky, too).
 struct LightFieldSample {
     float x, y, u, v;
     float t, w, slope, alpha;
@@ -38,16 +47,18 @@ struct SampleSet {
     std::vector<glm::vec3> radiance; ///< linear; one per sample
     std::vector<glm::vec3> albedo;   ///< in [0, 1]; may be empty, and normals are then, too
     std::vector<glm::vec3> normal; ///< world space, unit length, towards the camera; 0 where nothing was hit
+    std::vector<glm::vec3> motion; ///< homogeneous, see below; empty where nothing moves
 
     bool hasGuides() const { return !albedo.empty(); }
+    bool moves() const { return !motion.empty(); }
     /// `guides`: with albedo and normals.
-    void resize(std::size_t count, bool guides);
+    void resize(std::size_t count, bool guides, bool moving = false);
 };
 
-/// Room for samples and their values, of equal length; albedo and normal may be empty.
+/// Room for samples and their values, of equal length; albedo, normal and motion may be empty.
 struct SampleSpans {
     std::span<LightFieldSample> samples;
-    std::span<glm::vec3> radiance, albedo, normal;
+    std::span<glm::vec3> radiance, albedo = {}, normal = {}, motion = {};
 };
 SampleSpans spansOf(SampleSet& set);
 

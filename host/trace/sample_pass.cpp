@@ -61,6 +61,7 @@ void copyRows(const SampleSet& from, Rect pixels, SampleSet& to, Rect bounds, in
         copy(from.radiance, to.radiance);
         copy(from.albedo, to.albedo);
         copy(from.normal, to.normal);
+        copy(from.motion, to.motion);
     }
 }
 

@@ -54,7 +54,7 @@ void Tracer::trace(Rect pixels, int firstSample, int count, int samplesPerPixel,
     };
     if (firstSample < 0 || count < 0 || count > samplesPerPixel - firstSample ||
         out.samples.size() != samples || !fits(out.radiance, false) || !fits(out.albedo, true) ||
-        out.normal.size() != out.albedo.size())
+        out.normal.size() != out.albedo.size() || !fits(out.motion, true))
         throw Error(ErrorCode::usage, "the buffers do not fit the samples to trace");
     if (samples == 0) return;
     TraceJob job{scene_, camera_, geometry_, shading_, pattern, pixels, firstSample, count, out};
