@@ -5,9 +5,9 @@
 #include "resources/bins.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 6, rgba32ui) uniform writeonly uimageBuffer texels;
-layout(set = 0, binding = 7, r32ui) uniform uimageBuffer counters;
-layout(set = 0, binding = 8, r32ui) uniform writeonly uimageBuffer overflowList;
+layout(set = 0, binding = 9, rgba32ui) uniform writeonly uimageBuffer texels;
+layout(set = 0, binding = 10, r32ui) uniform uimageBuffer counters;
+layout(set = 0, binding = 11, r32ui) uniform writeonly uimageBuffer overflowList;
 
 struct LayerTexel {
     uvec4 words;
@@ -27,6 +27,7 @@ void keepLayer(vec3 rgb, float coverage, float slope, SlopeCode code, inout Laye
 #include "lib/search.glsl"
 
 void main() {
+    readMotionLayout();
     const int side = 1 << (findMSB(uint(push.outputs.outputsPerPixel)) >> 1); // texels along that of a pixel
     const ivec2 place = ivec2(gl_GlobalInvocationID.xy), size = push.outputs.regionSize * side;
     if (place.x >= size.x || place.y >= size.y) return;

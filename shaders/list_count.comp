@@ -9,6 +9,10 @@ layout(set = 0, binding = 0) uniform utextureBuffer bricks;
 layout(set = 0, binding = 1) uniform textureBuffer lensBoxes;
 layout(set = 0, binding = 2, r32ui) uniform writeonly uimageBuffer counts;
 layout(set = 0, binding = 3) uniform textureBuffer lensTiles;
+layout(set = 0, binding = 4) uniform textureBuffer brickMotions;
+layout(set = 0, binding = 5) uniform utextureBuffer brickOrder; // of each slot of time
+layout(set = 0, binding = 6) uniform textureBuffer groupTimes;  // first, last, slot
+layout(set = 0, binding = 7) uniform textureBuffer motionTexels;
 layout(push_constant) uniform Push {
     OutputPush push;
 };
@@ -24,10 +28,12 @@ void main() {
     if (i > push.count) return;
     uint tiles = 0u;
     if (i < push.count) {
-        const Brick brick = brickOf(texelFetch(bricks, int(i % push.brickTotal)));
         const uint group = i / push.brickTotal;
         const vec4 box = texelFetch(lensBoxes, int(push.firstGroup + group));
-        const ivec4 range = tilesOfBrick(brick, push.grid, push.outputs, box, int(group), push.marginPx);
+        const vec4 times = texelFetch(groupTimes, int(push.firstGroup + group));
+        const int brick = brickAtRank(times, i % push.brickTotal, push.brickTotal);
+        const ivec4 range =
+            tilesOfBrick(brick, push.grid, push.outputs, box, times.xy, int(group), push.marginPx);
         const ivec2 size = max(range.zw - range.xy, ivec2(0));
         tiles = uint(size.x * size.y);
     }

@@ -13,6 +13,10 @@ layout(set = 0, binding = 2) uniform utextureBuffer offsets; // of (group, brick
 layout(set = 0, binding = 3, r32ui) uniform writeonly uimageBuffer lists;
 layout(set = 0, binding = 4, r32ui) uniform writeonly uimageBuffer listIds;
 layout(set = 0, binding = 5) uniform textureBuffer lensTiles;
+layout(set = 0, binding = 6) uniform textureBuffer brickMotions;
+layout(set = 0, binding = 7) uniform utextureBuffer brickOrder; // of each slot of time
+layout(set = 0, binding = 8) uniform textureBuffer groupTimes;  // first, last, slot
+layout(set = 0, binding = 9) uniform textureBuffer motionTexels;
 layout(push_constant) uniform Push {
     OutputPush push;
 };
@@ -32,13 +36,15 @@ void main() {
         linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
     if (i >= push.count) return;
     const uint pair = lowerBound(i + 1u, 0u, push.groupCount * push.brickTotal + 1u) - 1u;
-    const uint group = pair / push.brickTotal, brick = pair - group * push.brickTotal;
+    const uint group = pair / push.brickTotal;
     const vec4 box = texelFetch(lensBoxes, int(push.firstGroup + group));
-    const ivec4 range = tilesOfBrick(brickOf(texelFetch(bricks, int(brick))), push.grid, push.outputs, box,
-                                     int(group), push.marginPx);
+    const vec4 times = texelFetch(groupTimes, int(push.firstGroup + group));
+    const int brick = brickAtRank(times, pair - group * push.brickTotal, push.brickTotal);
+    const ivec4 range =
+        tilesOfBrick(brick, push.grid, push.outputs, box, times.xy, int(group), push.marginPx);
     const int place = int(i - keyAt(pair)), width = range.z - range.x;
     const ivec2 tile = range.xy + ivec2(place % width, place / width);
     const ivec2 tiles = push.outputs.tileCount;
     imageStore(lists, int(i), uvec4((group * uint(tiles.y) + uint(tile.y)) * uint(tiles.x) + uint(tile.x)));
-    imageStore(listIds, int(i), uvec4(brick));
+    imageStore(listIds, int(i), uvec4(uint(brick)));
 }

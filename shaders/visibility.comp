@@ -7,14 +7,14 @@
 #include "resources/invocation.glsl"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 6) uniform utextureBuffer pattern;
-layout(set = 0, binding = 7) uniform utextureBuffer slots;
-layout(set = 0, binding = 8, rgba32f) uniform writeonly imageBuffer dense;
-layout(set = 0, binding = 9, r32ui) uniform uimageBuffer counters;
-layout(set = 0, binding = 10, r32ui) uniform writeonly uimageBuffer holeList;
-layout(set = 0, binding = 11, r32ui) uniform writeonly uimageBuffer overflowList;
-layout(set = 0, binding = 12) uniform textureBuffer apertureTable;
-layout(set = 0, binding = 13) uniform textureBuffer lensMap;
+layout(set = 0, binding = 9) uniform utextureBuffer pattern;
+layout(set = 0, binding = 10) uniform utextureBuffer slots;
+layout(set = 0, binding = 11, rgba32f) uniform writeonly imageBuffer dense;
+layout(set = 0, binding = 12, r32ui) uniform uimageBuffer counters;
+layout(set = 0, binding = 13, r32ui) uniform writeonly uimageBuffer holeList;
+layout(set = 0, binding = 14, r32ui) uniform writeonly uimageBuffer overflowList;
+layout(set = 0, binding = 15) uniform textureBuffer apertureTable;
+layout(set = 0, binding = 16) uniform textureBuffer lensMap;
 
 float apertureAt(int i) {
     return texelFetch(apertureTable, i).x;
@@ -30,6 +30,7 @@ vec4 lensMapAt(int texel) {
 #include "lib/search.glsl"
 
 void main() {
+    readMotionLayout();
     const uint invocation =
         linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
     if (invocation >= push.count) return;
@@ -42,6 +43,10 @@ void main() {
     const int index = push.firstOutput + int(k);
     Output o = outputAt(outputs.regionOrigin + position, index, texelFetch(pattern, index), push.lensCells,
                         push.lensScale, outputs.seed);
+    if (kMoving)
+        o.t = timeInShutter(outputs.regionOrigin + position, index, texelFetch(pattern, index).z,
+                            outputs.outputsPerPixel, outputs.seed,
+                            vec2(motionLayout.shutterOpen, motionLayout.shutterSpan));
     if (kCompoundLens) toSceneSide(o, sceneRay(o.xy, o.uv));
     const int list =
         ((int(k) >> push.groupBits) * outputs.tileCount.y + tile.y) * outputs.tileCount.x + tile.x;

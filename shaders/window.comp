@@ -5,6 +5,7 @@
 #include "shared/window.h"
 #include "resources/compound_lens.glsl"
 #include "resources/invocation.glsl"
+#include "resources/moving.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0,
@@ -17,6 +18,8 @@ layout(set = 0, binding = 5, r32ui) uniform writeonly uimageBuffer overflowList;
 layout(set = 0, binding = 6) uniform textureBuffer apertureTable;
 layout(set = 0, binding = 7) uniform utextureBuffer pixelStart;
 layout(set = 0, binding = 8) uniform textureBuffer lensMap;
+layout(set = 0, binding = 9) uniform textureBuffer motions; // Motion
+layout(set = 0, binding = 10) uniform textureBuffer motionTexels;
 layout(push_constant) uniform Push {
     WindowPush push;
 };
@@ -29,6 +32,9 @@ vec4 lensMapAt(int texel) {
 }
 vec4 positionAt(uint record) {
     return texelFetch(positions, int(record));
+}
+vec4 motionAt(uint record) {
+    return texelFetch(motions, int(record));
 }
 vec4 valueAt(uint record) {
     return texelFetch(values, int(record));
@@ -50,10 +56,9 @@ void keepCandidate(int place, WindowCandidate candidate) {
     records[place] = candidate.record;
 }
 
-vec2 offsetOf(vec4 position, Output o);
+WindowCandidate candidateAt(uint record, vec4 position, Output o);
 WindowCandidate keptCandidate(int place, Output o) {
-    const vec2 offset = offsetOf(positionAt(records[place]), o);
-    return WindowCandidate(offset, offset.x * offset.x + offset.y * offset.y, slopes[place], records[place]);
+    return candidateAt(records[place], positionAt(records[place]), o);
 }
 
 void sortCandidates(int count) {
@@ -87,6 +92,11 @@ void main() {
     const int index = push.firstOutput + int(k);
     Output o =
         outputAt(pixel, index, texelFetch(pattern, index), push.lensCells, push.lensScale, outputs.seed);
+    if (kMoving) {
+        const MotionLayout motionLayout = READ_MOTION_LAYOUT;
+        o.t = timeInShutter(pixel, index, texelFetch(pattern, index).z, outputs.outputsPerPixel, outputs.seed,
+                            vec2(motionLayout.shutterOpen, motionLayout.shutterSpan));
+    }
     if (kCompoundLens) {
         toSceneSide(o, sceneRay(o.xy, o.uv));
         if (!(o.weight > 0.0)) { // the film is dark

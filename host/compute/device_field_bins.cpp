@@ -15,7 +15,9 @@ constexpr std::size_t kUploadValues = std::size_t(1) << 20;
 
 DeviceFieldBins::DeviceFieldBins(Device& device, CommandList& commands, const SceneSideSamples& samples,
                                  const BinScope& scope)
-    : device_(device), samples_(samples), bins_(BinPasses(device).run(commands, samples, scope)) {}
+    : device_(device), samples_(samples),
+      bins_(BinPasses(device, !samples.areaExcess().empty(), samples.field().moves())
+                .run(commands, samples, scope)) {}
 
 void DeviceFieldBins::refocus(CommandList& commands, float slopeShift) {
     if (slopeShift == slopeShift_) return;
@@ -26,6 +28,7 @@ void DeviceFieldBins::refocus(CommandList& commands, float slopeShift) {
     }
     slopeShift_ = slopeShift;
     bins_.grid = refocused(traced_->grid, slopeShift);
+    bins_.motion.layout.c2 = samples_.field().slopeModel.c2 + slopeShift;
     const Pass pass(device_, "bin_refocus");
     const RefocusPush push{bins_.grid.sampleCount, bins_.brickTotal, slopeShift};
     // There are no more bricks than records.

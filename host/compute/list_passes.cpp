@@ -1,6 +1,6 @@
 #include "compute/list_passes.h"
 
-#include "compute/lens_buffer.h"
+#include "compute/field_buffers.h"
 #include "reconstruct/lens_tiles.h"
 
 #include <bit>
@@ -15,13 +15,47 @@ Buffer uploadBoxes(Device& device, const std::vector<LensBox>& groups) {
     return boxes;
 }
 
+Buffer uploadOrders(Device& device, const BrickOrders& orders) {
+    std::vector<uint> all;
+    for (const std::vector<uint>& order : orders.all()) all.insert(all.end(), order.begin(), order.end());
+    Buffer buffer(device, TexelFormat::r32ui, all.size());
+    buffer.upload(all);
+    return buffer;
+}
+
+/// First, last, slot; of every group, also where nothing moves.
+Buffer uploadTimes(Device& device, const OutputPattern& pattern, const BrickOrders& orders) {
+    std::vector<vec4> times(pattern.groups.size(), vec4(0));
+    for (std::size_t i = 0; i < pattern.times.size(); ++i)
+        times[i] = vec4(pattern.times[i], float(orders.storedAt(pattern.slotOf(i))), 0);
+    Buffer buffer(device, TexelFormat::rgba32f, times.size());
+    buffer.upload(times);
+    return buffer;
+}
+
+MotionLayout layoutOf(const MotionGrid& motion, const PatternShutter& shutter) {
+    MotionLayout layout = motion.layout;
+    layout.shutterOpen = shutter.open;
+    layout.shutterSpan = shutter.span;
+    return layout;
+}
+
 } // namespace
 
-ListPasses::ListPasses(Device& device, const OutputPattern& pattern, const LensMap& lens)
-    : device_(device), pattern_(pattern), lens_(lens), count_(device, "list_count", compoundLens(lens)),
-      emit_(device, "list_emit", compoundLens(lens)), start_(device, "list_start"),
-      gather_(device, "list_gather"), scan_(device, 1), sort_(device, 1),
-      lensBoxes_(uploadBoxes(device, pattern.groups)) {}
+ListPasses::ListPasses(Device& device, const OutputPattern& pattern, const LensMap& lens,
+                       const DeviceBins& bins)
+    : ListPasses(device, pattern, lens, bins.motion,
+                 BrickOrders(bins.motion, bins.brickRanks, pattern.slotTimes())) {}
+
+ListPasses::ListPasses(Device& device, const OutputPattern& pattern, const LensMap& lens,
+                       const MotionGrid& motion, const BrickOrders& orders)
+    : device_(device), pattern_(pattern), lens_(lens),
+      count_(device, "list_count", fieldConstants(!lens.empty(), motion.moves())),
+      emit_(device, "list_emit", fieldConstants(!lens.empty(), motion.moves())), start_(device, "list_start"),
+      gather_(device, "list_gather", fieldConstants(!lens.empty(), motion.moves())), scan_(device, 1),
+      sort_(device, 1), lensBoxes_(uploadBoxes(device, pattern.groups)),
+      brickOrder_(uploadOrders(device, orders)), groupTimes_(uploadTimes(device, pattern, orders)),
+      motionTexels_(motionBuffer(device, layoutOf(motion, pattern.shutter))) {}
 
 DeviceLists ListPasses::run(CommandList& commands, const DeviceBins& bins, OutputPush push, float marginPx) {
     push.marginPx = marginPx;
@@ -32,8 +66,10 @@ DeviceLists ListPasses::run(CommandList& commands, const DeviceBins& bins, Outpu
     lensTiles.upload(lensBounds_);
     push.count = push.groupCount * bins.brickTotal;
     Buffer offsets(device_, TexelFormat::r32ui, push.count + 1);
-    commands.dispatch(count_, {bins.bricks, lensBoxes_, offsets, lensTiles}, push,
-                      count_.gridFor(push.count + 1));
+    commands.dispatch(count_,
+                      {bins.bricks, lensBoxes_, offsets, lensTiles, bins.brickMotions, brickOrder_,
+                       groupTimes_, motionTexels_},
+                      push, count_.gridFor(push.count + 1));
     scan_.reserve(push.count + 1);
     scan_.record(commands, offsets, push.count + 1);
     commands.run();
@@ -43,8 +79,10 @@ DeviceLists ListPasses::run(CommandList& commands, const DeviceBins& bins, Outpu
     const uint lists = push.groupCount * uint(push.outputs.tileCount.x) * uint(push.outputs.tileCount.y);
     PairBuffers pairs(device_, entries), scratch(device_, entries);
     push.count = entries;
-    commands.dispatch(emit_, {bins.bricks, lensBoxes_, offsets, pairs.keys, pairs.values, lensTiles}, push,
-                      emit_.gridFor(entries));
+    commands.dispatch(emit_,
+                      {bins.bricks, lensBoxes_, offsets, pairs.keys, pairs.values, lensTiles,
+                       bins.brickMotions, brickOrder_, groupTimes_, motionTexels_},
+                      push, emit_.gridFor(entries));
     sort_.reserve(entries);
     const bool inScratch =
         &sort_.record(commands, pairs, scratch, entries, std::bit_width(lists - 1)) == &scratch;
@@ -53,10 +91,13 @@ DeviceLists ListPasses::run(CommandList& commands, const DeviceBins& bins, Outpu
     commands.dispatch(start_, {sorted.keys, start}, LowerBoundPush{entries, lists + 1},
                       start_.gridFor(lists + 1));
     Buffer bricks(device_, TexelFormat::rgba32ui, entries), cellBases(device_, TexelFormat::r32ui, entries);
-    commands.dispatch(gather_, {sorted.values, bins.bricks, bins.cellBases, bricks, cellBases}, push,
-                      gather_.gridFor(entries));
+    Buffer motions(device_, TexelFormat::rgba32f, bins.motion.moves() ? entries * kBrickMotionTexels : 0);
+    commands.dispatch(
+        gather_, {sorted.values, bins.bricks, bins.cellBases, bricks, cellBases, bins.brickMotions, motions},
+        push, gather_.gridFor(entries));
     commands.run();
-    return {std::move(start), std::move(sorted.values), std::move(bricks), std::move(cellBases)};
+    return {std::move(start), std::move(sorted.values), std::move(bricks), std::move(cellBases),
+            std::move(motions)};
 }
 
 } // namespace slant

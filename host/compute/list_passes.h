@@ -2,6 +2,7 @@
 #pragma once
 #include "compute/bin_passes.h"
 #include "reconstruct/output_pattern.h"
+#include "reconstruct/tile_lists.h"
 
 namespace slant {
 
@@ -10,12 +11,13 @@ struct DeviceLists {
     Buffer ids;    ///< of bricks, one per entry
     Buffer bricks; ///< the bricks themselves
     Buffer cellBases;
+    Buffer motions; ///< of the bricks, where things move
 };
 
 class ListPasses {
 public:
     /// Outputs of `pattern` look through `lens` unless it is empty; both must outlive this.
-    ListPasses(Device& device, const OutputPattern& pattern, const LensMap& lens);
+    ListPasses(Device& device, const OutputPattern& pattern, const LensMap& lens, const DeviceBins& bins);
 
     /// Lists of push.groupCount groups from push.firstGroup on; push needs grid, outputs and brickTotal.
     /// Runs on `commands`, which must be empty, and leaves it empty.
@@ -25,15 +27,20 @@ public:
     const std::vector<float>& lensBounds() const { return lensBounds_; }
     /// Of all groups: min, max.
     const Buffer& lensBoxes() const { return lensBoxes_; }
+    /// The picture's MotionLayout.
+    const Buffer& motionTexels() const { return motionTexels_; }
 
 private:
+    ListPasses(Device& device, const OutputPattern& pattern, const LensMap& lens, const MotionGrid& motion,
+               const BrickOrders& orders);
+
     Device& device_;
     const OutputPattern& pattern_;
     const LensMap& lens_;
     Pass count_, emit_, start_, gather_;
     Scan scan_;
     RadixSort sort_;
-    Buffer lensBoxes_;
+    Buffer lensBoxes_, brickOrder_, groupTimes_, motionTexels_;
     std::vector<float> lensBounds_;
 };
 

@@ -26,13 +26,14 @@ void MapPasses::makeMap(CommandList& commands, const DeviceBins& bins, const Map
     OutputPattern center;
     center.groups = {{vec2(0), vec2(0)}};
     const LensMap noLens;
-    ListPasses listPasses(device_, center, noLens);
+    ListPasses listPasses(device_, center, noLens, bins);
     const DeviceLists lists = listPasses.run(commands, bins, push, 2 * layout_.tentPx);
     Buffer counters(device_, TexelFormat::r32ui, kCounters), overflowList(device_, TexelFormat::r32ui, base);
     commands.fill(counters, 0);
     commands.dispatch(map_,
                       {bins.positions, bins.values, bins.cellStart, lists.start, lists.cellBases,
-                       lists.bricks, texels_, counters, overflowList},
+                       lists.bricks, bins.motions, lists.motions, listPasses.motionTexels(), texels_,
+                       counters, overflowList},
                       push, map_.gridOver(std::uint32_t(layout_.size.x), std::uint32_t(layout_.size.y)));
     commands.run();
     uint overflowed = 0;

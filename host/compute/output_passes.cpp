@@ -1,6 +1,6 @@
 #include "compute/output_passes.h"
 
-#include "compute/lens_buffer.h"
+#include "compute/field_buffers.h"
 #include "reconstruct/grid.h"
 
 #include <algorithm>
@@ -9,8 +9,8 @@ namespace slant {
 
 OutputPasses::OutputPasses(Device& device, const OutputPattern& pattern, const LensMap& lens,
                            const SearchKernel& kernel)
-    : device_(device), search_(device, kernel.pass, compoundLens(lens)),
-      visibility_(device, "visibility", compoundLens(lens)),
+    : device_(device), search_(device, kernel.pass, fieldConstants(!lens.empty(), pattern.shutter.moves)),
+      visibility_(device, "visibility", fieldConstants(!lens.empty(), pattern.shutter.moves)),
       pattern_(device, TexelFormat::rgba32ui, pattern.entries.size()),
       aperture_(device, TexelFormat::r32f, pattern.aperture.table().size()),
       lensMap_(lensBuffer(device, lens)), counters_(device, TexelFormat::r32ui, kCounters),
@@ -46,8 +46,9 @@ OutputPasses::Result OutputPasses::run(CommandList& commands, ListPasses& listPa
         buffer.upload(std::span(*items));
         commands.dispatch(search_,
                           {bins.positions, bins.values, bins.cellStart, lists.start, lists.cellBases,
-                           lists.bricks, pattern_, dense, counters_, visibilityList_, overflowList_, buffer,
-                           aperture_, lensMap_, missed},
+                           lists.bricks, bins.motions, lists.motions, listPasses.motionTexels(), pattern_,
+                           dense, counters_, visibilityList_, overflowList_, buffer, aperture_, lensMap_,
+                           missed},
                           push, search_.gridFor((std::uint64_t(push.count) * kTileSize * kTileSize) << bits));
         commands.run();
     }
@@ -59,8 +60,8 @@ OutputPasses::Result OutputPasses::run(CommandList& commands, ListPasses& listPa
     const auto look = [&](const DeviceLists& in) {
         commands.dispatch(visibility_,
                           {bins.positions, bins.values, bins.cellStart, in.start, in.cellBases, in.bricks,
-                           pattern_, visibilityList_, dense, counters_, holeList_, overflowList_, aperture_,
-                           lensMap_},
+                           bins.motions, in.motions, listPasses.motionTexels(), pattern_, visibilityList_,
+                           dense, counters_, holeList_, overflowList_, aperture_, lensMap_},
                           push, visibility_.gridFor(push.count));
         commands.run();
         return counters();

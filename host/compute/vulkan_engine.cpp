@@ -29,7 +29,7 @@ void VulkanEngine::begin(PictureSetup setup) {
     film_.emplace(device_, setup_.frame, setup_.filter);
     picture_.reset();
     if (bins_)
-        picture_.emplace(BinPicture{ListPasses(device_, setup_.pattern, lensMap()),
+        picture_.emplace(BinPicture{ListPasses(device_, setup_.pattern, lensMap(), bins_->bins()),
                                     OutputPasses(device_, setup_.pattern, lensMap(), setup_.search),
                                     MapPasses(device_, setup_.pattern)});
 }
@@ -158,6 +158,10 @@ std::vector<uint> VulkanEngine::words(Intermediate intermediate) const {
         return all(bins_->bins().positions);
     case Intermediate::values:
         return all(bins_->bins().values);
+    case Intermediate::motions:
+        return all(bins_->bins().motions);
+    case Intermediate::brickMotions:
+        return all(bins_->bins().brickMotions);
     case Intermediate::layerMap:
         return all(picture_->map.texels());
     case Intermediate::lensBounds:
@@ -174,6 +178,8 @@ std::vector<uint> VulkanEngine::words(Intermediate intermediate) const {
         return all(window_->positions());
     case Intermediate::windowValues:
         return all(window_->values());
+    case Intermediate::windowMotions:
+        return all(window_->motions());
     case Intermediate::dense:
         return wordsOf(dense_, denseTexels_);
     case Intermediate::film:

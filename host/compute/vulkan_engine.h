@@ -21,6 +21,7 @@ public:
     void refocus(float slopeShift) override;
     void takeValues(ValuePlane plane) override;
     const GridLayout& grid() const override { return bins_->bins().grid; }
+    const MotionGrid& motion() const override { return bins_->bins().motion; }
     void begin(PictureSetup setup) override;
     void beginWindow(const WindowSearch& search) override;
     void makeMap(const MapLayout& layout) override;

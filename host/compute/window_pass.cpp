@@ -1,6 +1,6 @@
 #include "compute/window_pass.h"
 
-#include "compute/lens_buffer.h"
+#include "compute/field_buffers.h"
 
 #include <algorithm>
 #include <numeric>
@@ -15,14 +15,23 @@ Buffer uploaded(Device& device, TexelFormat format, const Texels& texels) {
     return buffer;
 }
 
+MotionLayout layoutOf(const PatternShutter& shutter) {
+    MotionLayout layout{};
+    layout.shutterOpen = shutter.open;
+    layout.shutterSpan = shutter.span;
+    return layout;
+}
+
 } // namespace
 
 WindowPass::WindowPass(Device& device, const WindowSamples& samples, const WindowSearch& search,
                        const LensMap& lens, const OutputPattern& pattern)
     : device_(device), search_(search), lensCells_(pattern.lensCells), lensScale_(pattern.lensScale),
-      pass_(device, "window", compoundLens(lens)),
+      pass_(device, "window", fieldConstants(!lens.empty(), pattern.shutter.moves)),
       positions_(uploaded(device, TexelFormat::rgba32f, samples.positions)),
       values_(uploaded(device, TexelFormat::rgba32f, samples.values)),
+      motions_(uploaded(device, TexelFormat::rgba32f, samples.motions)),
+      motionTexels_(motionBuffer(device, layoutOf(pattern.shutter))),
       pixelStart_(uploaded(device, TexelFormat::r32ui, samples.pixelStart)),
       entries_(uploaded(device, TexelFormat::rgba32ui, pattern.entries)),
       aperture_(uploaded(device, TexelFormat::r32f, pattern.aperture.table())),
@@ -48,10 +57,10 @@ WindowPass::Result WindowPass::run(CommandList& commands, const Chunk& chunk, st
     push.firstOutput = chunk.firstOutput;
     push.count = uint(chunk.outputs());
     commands.fill(counters_, 0);
-    commands.dispatch(
-        pass_,
-        {positions_, values_, entries_, dense, counters_, overflowList_, aperture_, pixelStart_, lensMap_},
-        push, pass_.gridFor(push.count));
+    commands.dispatch(pass_,
+                      {positions_, values_, entries_, dense, counters_, overflowList_, aperture_, pixelStart_,
+                       lensMap_, motions_, motionTexels_},
+                      push, pass_.gridFor(push.count));
     commands.run();
     std::vector<uint> counts(kCounters);
     counters_.download(std::span(counts));

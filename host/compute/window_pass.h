@@ -25,6 +25,7 @@ public:
 
     const Buffer& positions() const { return positions_; }
     const Buffer& values() const { return values_; }
+    const Buffer& motions() const { return motions_; }
 
 private:
     Device& device_;
@@ -32,7 +33,8 @@ private:
     ivec2 lensCells_;
     float lensScale_;
     Pass pass_;
-    Buffer positions_, values_, pixelStart_, entries_, aperture_, lensMap_, counters_, overflowList_;
+    Buffer positions_, values_, motions_, motionTexels_, pixelStart_, entries_, aperture_, lensMap_,
+        counters_, overflowList_;
 };
 
 } // namespace slant

@@ -5,6 +5,7 @@
 #include "camera/lens_map.h"
 #include "camera/slope_model.h"
 
+#include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
@@ -40,6 +41,11 @@ struct LightFieldSample {
     float t, w, slope, alpha;
 };
 static_assert(sizeof(LightFieldSample) == 32);
+
+/// m over the depth: how the homogeneous point (p, 1) moves over the shutter.
+inline glm::vec3 relativeMotion(const LightFieldSample& sample, glm::vec3 motion) {
+    return std::isinf(sample.w) ? motion : motion / sample.w;
+}
 
 /// Samples, and planes of values beside them: one value per sample, or none at all.
 struct SampleSet {

@@ -7,9 +7,9 @@
 
 namespace slant {
 
-ChunkOutputs::ChunkOutputs(const Bins& bins, const LensMap& lens, const OutputPattern& pattern,
-                           const SearchKernel& kernel, const Chunk& chunk)
-    : bins_(bins), lens_(lens), pattern_(pattern), kernel_(kernel), chunk_(chunk),
+ChunkOutputs::ChunkOutputs(const Bins& bins, const BrickOrders& orders, const LensMap& lens,
+                           const OutputPattern& pattern, const SearchKernel& kernel, const Chunk& chunk)
+    : bins_(bins), orders_(orders), lens_(lens), pattern_(pattern), kernel_(kernel), chunk_(chunk),
       groups_(
           std::span(pattern.groups).subspan(std::size_t(chunk.firstGroup), std::size_t(chunk.groupCount))),
       lensPoints_(lensPoints(pattern)) {
@@ -24,12 +24,23 @@ void ChunkOutputs::makeLists() {
 
 TileLists ChunkOutputs::listsWithin(float marginPx, std::vector<float>& bounds) const {
     const OutputLayout& layout = chunk_.layout;
-    if (lens_.empty()) return makeTileLists(bins_, layout, groups_, marginPx);
-    bounds = lensTileBounds(lens_, pattern_, std::size_t(chunk_.firstGroup), groups_.size(), bins_.grid,
-                            layout, marginPx);
-    return makeTileLists(bins_, layout, groups_.size(), [&](const Brick& brick, std::size_t group) {
-        return tilesOfCompoundLens(brick, bins_.grid, layout, bounds, group);
-    });
+    const auto first = std::size_t(chunk_.firstGroup);
+    const bool moves = bins_.motion.moves();
+    if (lens_.empty() && !moves) return makeTileLists(bins_, layout, groups_, marginPx);
+    if (!lens_.empty())
+        bounds = lensTileBounds(lens_, pattern_, first, groups_.size(), bins_.grid, layout, marginPx);
+    GroupSight sight;
+    sight.tilesOf = [&](uint brick, std::size_t group) {
+        if (lens_.empty())
+            return tilesSeeing(bins_, brick, layout, groups_[group], pattern_.times[first + group], marginPx);
+        return tilesOfCompoundLens(bins_, brick, layout, bounds, group,
+                                   moves ? pattern_.times[first + group] : vec2(0));
+    };
+    if (moves)
+        sight.brickAt = [&](std::size_t group, std::size_t rank) {
+            return orders_.at(pattern_.slotOf(first + group), rank);
+        };
+    return makeTileLists(bins_, layout, groups_.size(), sight);
 }
 
 SearchContext ChunkOutputs::contextOf(const TileLists& in, std::size_t list) const {

@@ -17,8 +17,8 @@ namespace slant {
 class ChunkOutputs {
 public:
     /// Outputs look through `lens` unless it is empty. What it refers to outlives it.
-    ChunkOutputs(const Bins& bins, const LensMap& lens, const OutputPattern& pattern,
-                 const SearchKernel& kernel, const Chunk& chunk);
+    ChunkOutputs(const Bins& bins, const BrickOrders& orders, const LensMap& lens,
+                 const OutputPattern& pattern, const SearchKernel& kernel, const Chunk& chunk);
 
     void makeLists();
     /// Progress in outputs that the map serves.
@@ -60,6 +60,7 @@ private:
     SearchCounts widen(Counts& counts);
 
     const Bins& bins_;
+    const BrickOrders& orders_;
     const LensMap& lens_;
     const OutputPattern& pattern_;
     SearchKernel kernel_;

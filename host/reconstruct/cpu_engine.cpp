@@ -11,6 +11,7 @@ void CpuEngine::takeValues(ValuePlane plane) {
 
 void CpuEngine::begin(PictureSetup setup) {
     setup_ = std::move(setup);
+    if (bins_) orders_ = BrickOrders(motion(), bins_->bins().brickRanks, setup_.pattern.slotTimes());
     film_.emplace(setup_.frame, setup_.filter);
     peakBytes_ = 0;
 }
@@ -26,7 +27,7 @@ void CpuEngine::makeMap(const MapLayout& layout) {
 }
 
 void CpuEngine::makeLists(const Chunk& chunk) {
-    outputs_.emplace(bins_->bins(), lensMap(), setup_.pattern, setup_.search, chunk);
+    outputs_.emplace(bins_->bins(), orders_, lensMap(), setup_.pattern, setup_.search, chunk);
     outputs_->makeLists();
     noteBytes(outputs_->dense.samples.size() * sizeof(vec4));
 }
@@ -73,6 +74,10 @@ std::vector<uint> CpuEngine::words(Intermediate intermediate) const {
         return wordsOf(bins_->bins().positions);
     case Intermediate::values:
         return wordsOf(bins_->bins().values);
+    case Intermediate::motions:
+        return wordsOf(bins_->bins().motions);
+    case Intermediate::brickMotions:
+        return wordsOf(bins_->bins().brickMotions);
     case Intermediate::layerMap:
         return wordsOf(map_.texels);
     case Intermediate::lensBounds:
@@ -89,6 +94,8 @@ std::vector<uint> CpuEngine::words(Intermediate intermediate) const {
         return wordsOf(windowSamples_.positions);
     case Intermediate::windowValues:
         return wordsOf(windowSamples_.values);
+    case Intermediate::windowMotions:
+        return wordsOf(windowSamples_.motions);
     case Intermediate::dense:
         return wordsOf(dense().samples);
     case Intermediate::film:

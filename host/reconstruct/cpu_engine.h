@@ -18,6 +18,7 @@ public:
     void refocus(float slopeShift) override { bins_->refocus(slopeShift); }
     void takeValues(ValuePlane plane) override;
     const GridLayout& grid() const override { return bins_->bins().grid; }
+    const MotionGrid& motion() const override { return bins_->bins().motion; }
     void begin(PictureSetup setup) override;
     void beginWindow(const WindowSearch& search) override;
     void makeMap(const MapLayout& layout) override;
@@ -50,6 +51,7 @@ private:
     std::optional<FieldBins> bins_;
     ValuePlane plane_ = ValuePlane::radiance; ///< for windows and input samples
     PictureSetup setup_;
+    BrickOrders orders_;
     std::optional<FilmBuffer> film_;
     LayerMap map_;
     ListClasses classes_{0};

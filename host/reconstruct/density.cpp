@@ -1,7 +1,7 @@
 #include "reconstruct/density.h"
 
 #include "base/parallel.h"
-#include "reconstruct/kernels.h"
+#include "reconstruct/points.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,15 +21,15 @@ std::vector<uint> summedCounts(const LightField& field) {
     return sums;
 }
 
-float leastAround(std::span<const LightFieldSample> samples, const SampleDensity& density) {
+float leastAround(const Points& points, const SampleDensity& density) {
     float least = kInfinity;
     std::mutex mutex;
-    parallelFor(0, samples.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
+    parallelFor(0, points.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
         float local = kInfinity;
         for (std::size_t i = first; i < last; ++i) {
-            const LightFieldSample& s = samples[i];
-            if (std::isfinite(s.slope))
-                local = std::min(local, samplesAround(density, pinholePosition(s), s.slope));
+            const MovingPoint point = points[i];
+            if (isEnabled(point.trajectory))
+                local = std::min(local, samplesAround(density, point.trajectory.pinhole, blurOf(point)));
         }
         const std::lock_guard lock(mutex);
         least = std::min(least, local);
@@ -50,7 +50,7 @@ SampleDensity densityOf(const SceneSideSamples& samples) {
                       ivec2(field.bounds.width(), field.bounds.height())};
     density.sums = summedCounts(field);
     density.typical = float(sampleCounts(field).mean);
-    density.least = leastAround(samples.samples(), density);
+    density.least = leastAround(Points(samples), density);
     return density;
 }
 

@@ -3,8 +3,8 @@
 // words as results.
 #pragma once
 #include "lightfield/scene_side.h"
-#include "reconstruct/grid.h"
 #include "reconstruct/list_work.h"
+#include "reconstruct/motion_grid.h"
 #include "reconstruct/options.h"
 #include "reconstruct/report.h"
 #include "shared/layer_map.h"
@@ -20,6 +20,8 @@ enum class Intermediate {
     cells,
     positions,
     values,
+    motions,
+    brickMotions,
     layerMap,
     lensBounds,
     listStart,
@@ -28,6 +30,7 @@ enum class Intermediate {
     missedPixels,
     windowPositions,
     windowValues,
+    windowMotions,
     dense,
     film,
 };
@@ -61,6 +64,7 @@ public:
     /// Values for the stages below: of the binned samples, or of `window` and `box`.
     virtual void takeValues(ValuePlane plane) = 0;
     virtual const GridLayout& grid() const = 0;
+    virtual const MotionGrid& motion() const = 0;
     /// An empty film.
     virtual void begin(PictureSetup setup) = 0;
     virtual void beginWindow(const WindowSearch& search) = 0;

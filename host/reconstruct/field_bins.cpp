@@ -18,6 +18,7 @@ void FieldBins::refocus(float slopeShift) {
     }
     slopeShift_ = slopeShift;
     bins_.grid = refocused(tracedGrid_, slopeShift);
+    bins_.motion.layout.c2 = samples_.field().slopeModel.c2 + slopeShift;
     for (std::size_t i = 0; i < bins_.bricks.size(); ++i) {
         bins_.bricks[i].slopeMin = tracedBricks_[i].slopeMin + slopeShift;
         bins_.bricks[i].slopeMax = tracedBricks_[i].slopeMax + slopeShift;

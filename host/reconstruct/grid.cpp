@@ -1,7 +1,7 @@
 #include "reconstruct/grid.h"
 
 #include "base/parallel.h"
-#include "reconstruct/kernels.h"
+#include "reconstruct/points.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,10 +23,12 @@ struct Bounds {
     float slopeMin = kInfinity, slopeMax = -kInfinity;
     std::uint64_t count = 0;
 
-    void add(vec2 p, float slope) {
+    void add(vec2 p) {
         ++count;
         min = glm::min(min, p);
         max = glm::max(max, p);
+    }
+    void add(float slope) {
         slopeMin = std::min(slopeMin, slope);
         slopeMax = std::max(slopeMax, slope);
     }
@@ -39,14 +41,19 @@ struct Bounds {
     }
 };
 
-Bounds boundsOf(std::span<const LightFieldSample> samples, const Rect& region, float marginPx) {
+Bounds boundsOf(const Points& points, const Rect& region, float marginPx) {
     Bounds all;
     std::mutex mutex;
-    parallelFor(0, samples.size(), 1 << 15, [&](std::size_t first, std::size_t last) {
+    parallelFor(0, points.size(), 1 << 15, [&](std::size_t first, std::size_t last) {
         Bounds local;
         for (std::size_t i = first; i < last; ++i) {
-            const LightFieldSample& s = samples[i];
-            if (reaches(s, region, marginPx)) local.add(pinholePosition(s), s.slope);
+            const MovingPoint point = points[i];
+            if (!points.reaches(point, region, marginPx)) continue;
+            local.add(point.trajectory.pinhole);
+            local.add(point.trajectory.slope);
+            if (point.motion.slopeRate == 0) continue;
+            for (const float time : {-0.5f, 0.5f})
+                local.add(atTime(point.trajectory, point.motion, time).slope);
         }
         const std::lock_guard lock(mutex);
         all.add(local);
@@ -68,23 +75,21 @@ float marginPx(const BinScope& scope, const SampleDensity& density) {
     return scope.anyFocus ? kInfinity : widestSearchPx(density);
 }
 
-bool reaches(const LightFieldSample& s, const Rect& region, float marginPx) {
-    return reaches(trajectoryOf(s), vec2(float(region.x0), float(region.y0)),
-                   vec2(float(region.x1), float(region.y1)), marginPx);
-}
-
 float largestSlope(const GridLayout& grid) {
     return std::max(std::abs(grid.slopeMin),
                     std::abs(grid.slopeMin + float(grid.bucketCount) / grid.invBucket));
 }
 
-GridLayout chooseGrid(std::span<const LightFieldSample> samples, const SampleDensity& density,
-                      const BinScope& scope) {
+GridLayout chooseGrid(const SceneSideSamples& samples, const SampleDensity& density, const BinScope& scope) {
     const Rect& region = scope.region;
-    Bounds bounds = boundsOf(samples, region, marginPx(scope, density));
+    const Points points(samples);
+    Bounds bounds = boundsOf(points, region, marginPx(scope, density));
     GridLayout grid{};
     grid.sampleCount = uint(bounds.count);
-    if (bounds.count == 0) bounds.add(vec2(0), 0);
+    if (bounds.count == 0) {
+        bounds.add(vec2(0));
+        bounds.add(0.f);
+    }
     grid.radiusPx = emptyCircleRadius(density.least);
     const float typicalRadiusPx = emptyCircleRadius(density.typical);
 
@@ -110,7 +115,8 @@ GridLayout chooseGrid(std::span<const LightFieldSample> samples, const SampleDen
         const double cells =
             double(grid.brickCount.x) * grid.brickCount.y * grid.cellsPerBrick * grid.cellsPerBrick;
         const int widest = std::max(grid.brickCount.x, grid.brickCount.y) * grid.cellsPerBrick;
-        if (cells * grid.bucketCount < double(kNotBinned) && widest <= 1 << 15) return grid;
+        const int layers = points.move() ? std::max(grid.bucketCount, kMinLayers) : grid.bucketCount;
+        if (cells * layers < double(kNotBinned) && widest <= 1 << 15) return grid;
         if (grid.bucketCount > 64 && widest <= 1 << 15)
             bucketWidth *= 2;
         else

@@ -5,6 +5,7 @@
 // window of p whose width follows from the spread of slopes in one brick, however large the blur is.
 #pragma once
 #include "reconstruct/density.h"
+#include "shared/motion.h"
 
 namespace slant {
 
@@ -25,16 +26,14 @@ struct BinScope {
 /// The margin to give `reaches`: widestSearchPx, or infinity.
 float marginPx(const BinScope& scope, const SampleDensity& density);
 
-/// Whether any output in `region` can use this sample (false for disabled samples).
-bool reaches(const LightFieldSample& sample, const Rect& region, float marginPx);
-
 /// The largest slope of the grid's buckets, to either side.
 float largestSlope(const GridLayout& grid);
 
 /// Lays the grid over the samples that are binned, with fewer than 2^32 cells in all, so that a sort key has
 /// 32 bits. What lies outside by more than half the picture goes into the bricks of the rim and the first and
-/// last bucket, which reach to infinity.
-GridLayout chooseGrid(std::span<const LightFieldSample> samples, const SampleDensity& density,
-                      const BinScope& scope);
+/// last bucket, which reach to infinity. Where things move, slopes are those of the whole shutter, and there
+/// is room for kMinLayers layers.
+GridLayout chooseGrid(const SceneSideSamples& samples, const SampleDensity& density, const BinScope& scope);
+inline constexpr int kMinLayers = 1024;
 
 } // namespace slant

@@ -7,6 +7,7 @@
 #include "lib/gaussian.glsl"
 #include "lib/grid.glsl"
 #include "lib/map_texel.glsl"
+#include "lib/motion.glsl"
 #include "lib/occlusion.glsl"
 #include "lib/output.glsl"
 #include "lib/surface.glsl"

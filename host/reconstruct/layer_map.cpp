@@ -3,9 +3,10 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "lib/map_reduce.glsl"
-#include "reconstruct/bin_fetches.h"
+#include "reconstruct/kernels.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace slant {
 namespace {
@@ -97,10 +98,15 @@ vec2 texelCenter(const MapLayout& map, ivec2 texel) {
 
 namespace {
 
-struct MapSweepKernels : BinFetches {
+struct MapSweepKernels {
+    static constexpr bool kMoving = false;
+#include "reconstruct/bin_fetches.h"
+
     using LayerTexel = MapTexel;
 
-    static LayerTexel noLayers() { return {}; }
+    static LayerTexel noLayers() {
+        return {};
+    }
     static void keepLayer(vec3 rgb, float coverage, float slope, const SlopeCode&, LayerTexel& texel) {
         texel.layers[std::size_t(texel.count++)] = {rgb, coverage, slope};
     }
@@ -112,7 +118,7 @@ struct MapSweepKernels : BinFetches {
 /// The layers of the samples within `searchRadius`.
 MapTexel resolveWithin(const SearchContext& context, const MapLayout& map, ivec2 place, float searchRadius) {
     const GridLayout& grid = context.bins.grid;
-    MapSweepKernels kernels{{context}};
+    MapSweepKernels kernels{context};
     MapSweepKernels::Sweep sweep = kernels.newSweep(grid, map.tentPx, float(map.texelsPerPixel), map.code);
     kernels.forEachCandidate(grid, outputOnFilm(texelCenter(map, place), vec2(0), 0, 0), searchRadius,
                              sweep.maxRadiusRatio, 0, kernels.listLength(), sweep);

@@ -121,9 +121,12 @@ struct LensTileKernels {
 
 } // namespace
 
-TileRange tilesOfCompoundLens(const Brick& brick, const GridLayout& grid, const OutputLayout& layout,
-                              std::span<const float> bounds, std::size_t group) {
-    const ivec4 tiles = LensTileKernels{bounds.data()}.tilesOfCompoundLens(brick, grid, layout, int(group));
+TileRange tilesOfCompoundLens(const Bins& bins, uint brick, const OutputLayout& layout,
+                              std::span<const float> bounds, std::size_t group, vec2 times) {
+    SweptBrick swept = sweptBrick(bins.bricks[brick], bins.grid);
+    if (bins.motion.moves()) sweepOver(swept, bins.brickMotions[brick], times, bins.motion.layout.c2);
+    const ivec4 tiles =
+        LensTileKernels{bounds.data()}.tilesOfCompoundLens(swept, bins.grid, layout, int(group));
     return {ivec2(tiles.x, tiles.y), ivec2(tiles.z, tiles.w)};
 }
 

@@ -17,9 +17,10 @@ std::vector<float> lensTileBounds(const LensMap& lens, const OutputPattern& patt
                                   std::size_t groupCount, const GridLayout& grid, const OutputLayout& layout,
                                   float marginPx);
 
-/// Tiles whose outputs in a group, counted from the first of `bounds`, can see a sample of `brick`.
-TileRange tilesOfCompoundLens(const Brick& brick, const GridLayout& grid, const OutputLayout& layout,
-                              std::span<const float> bounds, std::size_t group);
+/// Tiles whose outputs in a group, counted from the first of `bounds`, can see a sample of a brick; where
+/// things move, from the first to the last of `times`.
+TileRange tilesOfCompoundLens(const Bins& bins, uint brick, const OutputLayout& layout,
+                              std::span<const float> bounds, std::size_t group, vec2 times);
 
 /// The region for whose outputs the samples of a picture are binned: its pixels and the filter's reach. For a
 /// field with a lens map it is on the scene's side, and includes what its metric and pupils need beyond

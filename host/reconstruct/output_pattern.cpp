@@ -55,15 +55,40 @@ LensBox cellsOf(const OutputPattern& pattern, std::size_t first, std::size_t las
     return {low, high};
 }
 
-/// The lens group of 2^bits of M outputs is about 2 sqrt(2^bits / M) lens radii wide; what it sees spreads by
-/// that times the slope. Sharing pays off up to a spread of one brick.
-int groupBitsFor(int outputsPerPixel, float slopePx) {
-    constexpr float kSpreadPx = 16;
-    int bits = 0;
-    while ((2 << bits) <= std::min(outputsPerPixel, kMaxGroupSize) &&
-           (bits == 0 || 2 * std::sqrt(float(2 << bits) / float(outputsPerPixel)) * slopePx <= kSpreadPx))
-        ++bits;
-    return bits;
+/// Pixels over which what a group sees may spread: sharing pays off up to a brick.
+constexpr float kSpreadPx = 16;
+
+/// Bits of the size of a group, and of the number of slots of time.
+struct GroupBits {
+    int size = 0, slots = 0;
+};
+
+/// A lens group of 2^size of M outputs in one of 2^slots slots is about 2 sqrt(2^(size + slots) / M) lens
+/// radii wide; what it sees spreads by that times the slope, and by its part of the motion.
+float spreadOf(GroupBits bits, int outputsPerPixel, float slopePx, float motionPx) {
+    const float lens = 2 * std::sqrt(float(1 << (bits.size + bits.slots)) / float(outputsPerPixel)) * slopePx;
+    return lens + motionPx / float(1 << bits.slots);
+}
+
+/// The split between lens and time with the least spread.
+GroupBits withSlots(int size, int outputsPerPixel, float slopePx, float motionPx) {
+    GroupBits best{size, 0};
+    if (motionPx == 0) return best;
+    for (int slots = 1; (1 << (size + slots)) <= outputsPerPixel; ++slots)
+        if (const GroupBits bits{size, slots}; spreadOf(bits, outputsPerPixel, slopePx, motionPx) <
+                                               spreadOf(best, outputsPerPixel, slopePx, motionPx))
+            best = bits;
+    return best;
+}
+
+GroupBits groupBitsFor(int outputsPerPixel, float slopePx, float motionPx) {
+    GroupBits bits;
+    while ((2 << bits.size) <= std::min(outputsPerPixel, kMaxGroupSize)) {
+        const GroupBits wider = withSlots(bits.size + 1, outputsPerPixel, slopePx, motionPx);
+        if (bits.size > 0 && !(spreadOf(wider, outputsPerPixel, slopePx, motionPx) <= kSpreadPx)) break;
+        bits = wider;
+    }
+    return bits.size > 0 ? bits : withSlots(0, outputsPerPixel, slopePx, motionPx);
 }
 
 /// Outputs per pixel that are enough where all see the same: they integrate over the pixel alone.
@@ -91,9 +116,33 @@ std::vector<SequenceEntry> lensSequence(int bits) {
     return sequence;
 }
 
+/// Which of 2^bits parts of the shutter a time lies in, whose bits are reversed.
+uint timeCell(uint reversed, int bits) {
+    return bits > 0 ? bitfieldReverse(reversed) >> (32 - bits) : 0;
+}
+
+/// From the first to the last time of a group, from the middle of the traced shutter.
+vec2 timesOf(std::span<const SequenceEntry> group, const PatternShutter& shutter, int outputsPerPixel) {
+    uint first = ~0u, last = 0;
+    for (const SequenceEntry& member : group) {
+        first = std::min(first, member.entry.z);
+        last = std::max(last, member.entry.z);
+    }
+    const vec2 part = vec2(float(first), float(last + 1)) / float(outputsPerPixel);
+    return shutter.open + shutter.span * part - 0.5f;
+}
+
 } // namespace
 
-OutputPattern makeOutputPattern(int outputsPerPixel, float slopePx, float lensScale, Aperture aperture) {
+std::vector<float> OutputPattern::slotTimes() const {
+    std::vector<float> middles;
+    for (int slot = 0; slot < 1 << slotBits; ++slot)
+        middles.push_back(shutter.open + shutter.span * (float(slot) + 0.5f) / float(1 << slotBits) - 0.5f);
+    return middles;
+}
+
+OutputPattern makeOutputPattern(int outputsPerPixel, float slopePx, float lensScale, Aperture aperture,
+                                const PatternShutter& shutter) {
     if (!isOutputCount(outputsPerPixel))
         throw Error(ErrorCode::usage,
                     fmt::format("outputs per pixel must be a power of two from 1 to {}, not {}",
@@ -103,16 +152,26 @@ OutputPattern makeOutputPattern(int outputsPerPixel, float slopePx, float lensSc
     pattern.lensScale = lensScale;
     pattern.aperture = std::move(aperture);
     pattern.lensCells = {1 << (bits + 1) / 2, 1 << bits / 2};
-    pattern.groupBits = groupBitsFor(outputsPerPixel, lensScale * slopePx);
+    pattern.shutter = shutter;
+    const GroupBits groups = groupBitsFor(outputsPerPixel, lensScale * slopePx,
+                                          shutter.moves ? shutter.span * shutter.velocityPx : 0);
+    pattern.groupBits = groups.size;
+    pattern.slotBits = groups.slots;
     pattern.sparseBits = std::clamp(kSparseOutputBits - (bits - pattern.groupBits), 0, pattern.groupBits);
 
     std::vector<SequenceEntry> sequence = lensSequence(bits);
-    std::sort(sequence.begin(), sequence.end(), [](const auto& left, const auto& right) {
+    if (shutter.moves)
+        for (SequenceEntry& member : sequence) member.entry.z = timeCell(member.entry.z, bits);
+    const auto slotOf = [&](const SequenceEntry& member) {
+        return member.entry.z >> (bits - pattern.slotBits);
+    };
+    std::sort(sequence.begin(), sequence.end(), [&](const auto& left, const auto& right) {
+        if (shutter.moves && slotOf(left) != slotOf(right)) return slotOf(left) < slotOf(right);
         return morton(lensCell(left.entry)) < morton(lensCell(right.entry));
     });
     const auto size = std::size_t(pattern.groupSize());
     for (std::size_t first = 0; first < sequence.size(); first += size) {
-        const std::span group = std::span(sequence).subspan(first, size);
+        const std::span<SequenceEntry> group = std::span(sequence).subspan(first, size);
         for (std::size_t k = 0; k < size; ++k) {
             const auto rank = std::ranges::count_if(
                 group, [&](const SequenceEntry& other) { return other.index < group[k].index; });
@@ -122,6 +181,7 @@ OutputPattern makeOutputPattern(int outputsPerPixel, float slopePx, float lensSc
         pattern.cells.push_back(cellsOf(pattern, first, first + size));
         const LensBox box = pattern.aperture.box(pattern.cells.back().min, pattern.cells.back().max);
         pattern.groups.push_back({pattern.lensScale * box.min, pattern.lensScale * box.max});
+        if (shutter.moves) pattern.times.push_back(timesOf(group, shutter, outputsPerPixel));
     }
     return pattern;
 }
@@ -138,8 +198,13 @@ struct PatternKernels {
 } // namespace
 
 Output outputAt(ivec2 pixel, int output, const OutputPattern& pattern, uint seed) {
-    return PatternKernels{pattern.aperture}.outputAt(pixel, output, pattern.entries[std::size_t(output)],
-                                                     pattern.lensCells, pattern.lensScale, seed);
+    const uvec4& entry = pattern.entries[std::size_t(output)];
+    PatternKernels kernels{pattern.aperture};
+    Output o = kernels.outputAt(pixel, output, entry, pattern.lensCells, pattern.lensScale, seed);
+    if (pattern.shutter.moves)
+        o.t = timeInShutter(pixel, output, entry.z, pattern.outputsPerPixel(), seed,
+                            vec2(pattern.shutter.open, pattern.shutter.span));
+    return o;
 }
 
 void toSceneSide(const LensMap& lens, Output& output) {

@@ -36,10 +36,11 @@ public:
     }
 
     void fromWindows() {
-        const OutputPattern& pattern = begin(patternFor(0));
+        const OutputPattern& pattern = begin(patternFor(0, 0));
         engine_.beginWindow(windowSearch(field_, options_.window));
         observe(Intermediate::windowPositions);
         observe(Intermediate::windowValues);
+        if (field_.moves()) observe(Intermediate::windowMotions);
         const Plan plan = planOutputs(field_.frame, filter_, pattern, maxSamples_);
         forEachChunk(
             plan, pattern, [](const Band&) {},
@@ -57,8 +58,10 @@ public:
         for (const Intermediate i :
              {Intermediate::bricks, Intermediate::cells, Intermediate::positions, Intermediate::values})
             observe(i);
+        if (field_.moves())
+            for (const Intermediate i : {Intermediate::motions, Intermediate::brickMotions}) observe(i);
         const GridLayout& grid = engine_.grid();
-        const OutputPattern& pattern = begin(patternFor(largestSlope(grid)));
+        const OutputPattern& pattern = begin(patternFor(largestSlope(grid), engine_.motion().fastestPx()));
         const int texels = mapTexelsPerPixel(field_);
         const float reach = mapReach(grid, pattern.lensScale);
         const int maxRows = usesMap ? mapRows(field_.frame, texels, reach, options_.memoryBytes / 2)
@@ -71,9 +74,11 @@ public:
     }
 
 private:
-    OutputPattern patternFor(float slopePx) const {
+    OutputPattern patternFor(float slopePx, float velocityPx) const {
+        const PatternShutter shutter{field_.moves(), velocityPx, view_.shutterOpen,
+                                     view_.shutterClose - view_.shutterOpen};
         return makeOutputPattern(options_.outputsPerPixel, slopePx, view_.apertureScale,
-                                 view_.apertureOf(field_));
+                                 view_.apertureOf(field_), shutter);
     }
 
     const OutputPattern& begin(OutputPattern pattern) {
@@ -172,7 +177,8 @@ Image PreparedField::picture(const LensView& view, ValuePlane plane, Monitor& mo
     case DenseSource::bins:
         // Through a compound lens every output has its own metric and its own part of a distorted picture:
         // there is no layer map for that.
-        picture.fromBins(traits.usesLayerMap && samples_.field().lensMap.empty());
+        picture.fromBins(traits.usesLayerMap && samples_.field().lensMap.empty() &&
+                         !samples_.field().moves());
         break;
     }
     engine_->addPassTimes(report);
@@ -214,10 +220,23 @@ void checkView(const ReconstructOptions& options, const LensView& view) {
 }
 
 const char* nameOf(Intermediate intermediate) {
-    constexpr std::array kNames{"bin.bricks",   "bin.cells",  "bin.positions",    "bin.values",
-                                "layer_map",    "lists.lens", "lists.start",      "lists.bricks",
-                                "list_classes", "missed",     "window.positions", "window.values",
-                                "dense",        "film"};
+    constexpr std::array kNames{"bin.bricks",
+                                "bin.cells",
+                                "bin.positions",
+                                "bin.values",
+                                "bin.motions",
+                                "bin.brickMotions",
+                                "layer_map",
+                                "lists.lens",
+                                "lists.start",
+                                "lists.bricks",
+                                "list_classes",
+                                "missed",
+                                "window.positions",
+                                "window.values",
+                                "window.motions",
+                                "dense",
+                                "film"};
     return kNames.at(std::size_t(intermediate));
 }
 

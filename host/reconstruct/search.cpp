@@ -1,17 +1,25 @@
 #include "reconstruct/search.h"
 
-#include "reconstruct/bin_fetches.h"
+#include "reconstruct/kernels.h"
+
+#include <limits>
 
 namespace slant {
 namespace {
 
-struct NearestKernels : BinFetches {
+template <bool kMoving>
+struct NearestKernels {
+#include "reconstruct/bin_fetches.h"
+
 #include "lib/nearest.glsl"
 
 #include "lib/search.glsl"
 };
 
-struct VisibilityKernels : BinFetches {
+template <bool kMoving>
+struct VisibilityKernels {
+#include "reconstruct/bin_fetches.h"
+
 #include "lib/visibility.glsl"
 
 #include "lib/search.glsl"
@@ -21,7 +29,7 @@ struct VisibilityKernels : BinFetches {
 template <typename Kernels>
 Reconstructed searchWithin(const SearchContext& context, const Output& output) {
     const GridLayout& grid = context.bins.grid;
-    Kernels kernels{{context}};
+    Kernels kernels{context};
     auto sweep = kernels.newSweep(grid.radiusPx, grid.surfaceGap);
     Reconstructed result;
     result.iterations = kernels.forEachCandidate(grid, output, grid.radiusPx, kAnyRadiusRatio, 0,
@@ -32,22 +40,29 @@ Reconstructed searchWithin(const SearchContext& context, const Output& output) {
     return result;
 }
 
-} // namespace
-
-Reconstructed reconstructNearest(const SearchContext& context, const Output& output) {
-    return searchWithin<NearestKernels>(context, output);
-}
-
-Reconstructed resolveVisibility(const SearchContext& context, const Output& output, float baseRadius) {
+template <typename Kernels>
+Reconstructed resolveWithin(const SearchContext& context, const Output& output, float baseRadius) {
     const GridLayout& grid = context.bins.grid;
-    VisibilityKernels kernels{{context}};
-    VisibilityKernels::Sweep sweep = kernels.newSweep(grid, baseRadius);
+    Kernels kernels{context};
+    auto sweep = kernels.newSweep(grid, baseRadius);
     Reconstructed result;
     result.iterations = kernels.forEachCandidate(grid, output, 2 * baseRadius, kAnyRadiusRatio, 0,
                                                  kernels.listLength(), sweep);
     if (!kernels.foundNothing(sweep)) result.outcome = Outcome::resolved;
     result.rgb = kernels.radianceOf(sweep);
     return result;
+}
+
+} // namespace
+
+Reconstructed reconstructNearest(const SearchContext& context, const Output& output) {
+    return context.bins.motion.moves() ? searchWithin<NearestKernels<true>>(context, output)
+                                       : searchWithin<NearestKernels<false>>(context, output);
+}
+
+Reconstructed resolveVisibility(const SearchContext& context, const Output& output, float baseRadius) {
+    return context.bins.motion.moves() ? resolveWithin<VisibilityKernels<true>>(context, output, baseRadius)
+                                       : resolveWithin<VisibilityKernels<false>>(context, output, baseRadius);
 }
 
 } // namespace slant

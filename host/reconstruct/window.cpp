@@ -2,7 +2,7 @@
 
 #include "base/parallel.h"
 #include "reconstruct/density.h"
-#include "reconstruct/kernels.h"
+#include "reconstruct/points.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,12 +18,14 @@ float spacingPx(float samplesPerPixel) {
     return 1 / std::sqrt(samplesPerPixel);
 }
 
+template <bool kMoving>
 struct WindowKernels {
     const WindowSamples& samples;
     std::vector<WindowCandidate>& kept;
 
     const vec4& positionAt(uint record) const { return samples.positions[record]; }
     const vec4& valueAt(uint record) const { return samples.values[record]; }
+    const vec4& motionAt(uint record) const { return samples.motions[record]; }
     uint pixelStartAt(int pixel) const { return samples.pixelStart[std::size_t(pixel)]; }
     void keepCandidate(int, const WindowCandidate& candidate) { kept.push_back(candidate); }
     const WindowCandidate& keptCandidate(int place, const Output&) const { return kept[std::size_t(place)]; }
@@ -40,20 +42,23 @@ WindowSamples windowSamples(const SceneSideSamples& source, ValuePlane plane) {
     const SampleDensity density = densityOf(source);
     const LightField& field = source.field();
     const std::size_t count = source.samples().size();
+    const Points points(source);
     WindowSamples samples{std::vector<vec4>(count), std::vector<vec4>(count),
+                          std::vector<vec4>(points.move() ? count : 0),
                           std::vector<uint>(field.bounds.area() + 1)};
     for (std::size_t pixel = 0; pixel < samples.pixelStart.size(); ++pixel)
         samples.pixelStart[pixel] = uint(field.firstSample(pixel));
     parallelFor(0, count, 1 << 14, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
-            const LightFieldSample& s = source.samples()[i];
-            const vec2 p = pinholePosition(s);
+            const MovingPoint point = points[i];
+            const auto [p, slope] = point.trajectory;
             const bool seen = std::isfinite(p.x) && std::isfinite(p.y); // so that p + slope u is no NaN
-            const float around = seen ? samplesAround(density, p, s.slope) : 1.f;
+            const float around = seen ? samplesAround(density, p, blurOf(point)) : 1.f;
             const float radiusPx = 2 * spacingPx(around);
             samples.positions[i] =
-                seen ? vec4(p, s.slope, radiusPx * radiusPx) : vec4(kNowherePx, kNowherePx, 0, 0);
-            samples.values[i] = vec4(source.value(plane, i), s.alpha);
+                seen ? vec4(p, slope, radiusPx * radiusPx) : vec4(kNowherePx, kNowherePx, 0, 0);
+            samples.values[i] = vec4(source.value(plane, i), points.sample(i).alpha);
+            if (points.move()) samples.motions[i] = seen ? texelOf(point.motion) : vec4(0);
         }
     });
     return samples;
@@ -78,10 +83,13 @@ std::uint64_t windowSteps(const LightField& field, const WindowSearch& search) {
 WindowResult lookThroughWindow(const WindowSamples& samples, const WindowSearch& search, ivec2 pixel,
                                const Output& output, std::vector<WindowCandidate>& scratch) {
     scratch.clear();
-    WindowKernels kernels{samples, scratch};
-    const WindowKernels::WindowFinds finds = kernels.collect(search, pixel, output);
-    const WindowKernels::WindowView view = kernels.viewOf(search, finds, output);
-    return {WindowOutcome(view.outcome), view.rgb};
+    const auto look = [&](auto kernels) -> WindowResult {
+        const auto finds = kernels.collect(search, pixel, output);
+        const auto view = kernels.viewOf(search, finds, output);
+        return {WindowOutcome(view.outcome), view.rgb};
+    };
+    return samples.motions.empty() ? look(WindowKernels<false>{samples, scratch})
+                                   : look(WindowKernels<true>{samples, scratch});
 }
 
 } // namespace slant

@@ -19,6 +19,7 @@ struct WindowSamples {
     std::vector<vec4> positions;  ///< pinhole position x, y, slope, square of its radius; far off where the
                                   ///< sample is disabled
     std::vector<vec4> values;     ///< r, g, b, alpha
+    std::vector<vec4> motions;    ///< Motion of lib/motion.glsl, where things move; else empty
     std::vector<uint> pixelStart; ///< first sample of each pixel of the bounds, and of one more
 };
 

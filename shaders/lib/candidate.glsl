@@ -9,9 +9,29 @@ struct Candidate {
     vec2 offset;     // from the output, pixels of the film
     float distance2; // scaled as if its own radius were that of the search
     float slope;
-    float weight; // see lib/occlusion.glsl
-    vec4 value;   // rgb; R over its own radius
+    float weight;  // see lib/occlusion.glsl
+    vec4 value;    // rgb; R over its own radius
+    vec2 velocity; // pixels per shutter
 };
+
+/// Bounds of velocities.
+struct VelocityBox {
+    vec2 low, high;
+};
+
+KERNEL VelocityBox noVelocities() {
+    const VelocityBox box = {vec2(kInfinity), vec2(-kInfinity)};
+    return box;
+}
+KERNEL void addVelocity(INOUT(VelocityBox) box, vec2 velocity) {
+    box.low = min(box.low, velocity);
+    box.high = max(box.high, velocity);
+}
+/// Whether a velocity differs by more than `gap` from all.
+KERNEL bool isApart(IN(VelocityBox) box, vec2 velocity, float gap) {
+    return velocity.x < box.low.x - gap || velocity.y < box.low.y - gap || velocity.x > box.high.x + gap ||
+           velocity.y > box.high.y + gap;
+}
 
 /// Whether a place lies inside the convex hull of points that come one at a time: it does if, seen from it,
 /// the points above span directions beyond those below on both sides.

@@ -43,7 +43,8 @@ KERNEL ivec2 meeting(IN(BoundsAt) at, int offset, int count, float from, float t
 }
 
 /// Like tilesSeeing of lib/grid.glsl; `group` counts from the first of the bounds.
-KERNEL ivec4 tilesOfCompoundLens(IN(Brick) brick, IN(GridLayout) grid, IN(OutputLayout) outputs, int group) {
+KERNEL ivec4 tilesOfCompoundLens(IN(SweptBrick) brick, IN(GridLayout) grid, IN(OutputLayout) outputs,
+                                 int group) {
     const float steps = float(kLensTileSlopes - 1) * grid.invBucket / float(grid.bucketCount);
     const float from = (brick.slopeMin - grid.slopeMin) * steps,
                 to = (brick.slopeMax - grid.slopeMin) * steps;
@@ -54,8 +55,7 @@ KERNEL ivec4 tilesOfCompoundLens(IN(Brick) brick, IN(GridLayout) grid, IN(Output
     const int first = clamp(int(from), 0, kLensTileSlopes - 2), last = clamp(int(to), 0, kLensTileSlopes - 2);
     const BoundsAt at = {begin + first * step_, begin + last * step_, from - float(first), to - float(last),
                          step_};
-    const BrickBox box = boxOf(brick, grid);
-    const ivec2 columns = meeting(at, 0, tiles.x, box.low.x, box.high.x);
-    const ivec2 rows = meeting(at, 2 * tiles.x, tiles.y, box.low.y, box.high.y);
+    const ivec2 columns = meeting(at, 0, tiles.x, brick.box.low.x, brick.box.high.x);
+    const ivec2 rows = meeting(at, 2 * tiles.x, tiles.y, brick.box.low.y, brick.box.high.y);
     return ivec4(columns.x, rows.x, columns.y, rows.y);
 }

@@ -1,7 +1,8 @@
 // The front-most apparent surface within R of an output, tent-filtered, where it is the only one or its
 // samples surround the output. Anything else needs lib/visibility.glsl.
 //
-// What lib/search.glsl needs of a sweep. In C++ it is included in a struct, after lib/candidate.glsl.
+// What lib/search.glsl needs of a sweep; with kMoving and motionLayout as there. In C++ it is included in a
+// struct, after lib/candidate.glsl.
 #include "lib/candidate.glsl"
 #include "shared/reconstruct.h"
 
@@ -11,15 +12,22 @@ struct Sweep {
     vec3 sum;
     float weightSum, slopeMax;
     Hull hull;
+    VelocityBox velocities;
 };
 
 KERNEL Sweep newSweep(float radiusPx, float surfaceGap) {
-    const Sweep sweep = {true, 1.0f / radiusPx, surfaceGap, vec3(0.0f), 0.0f, -kInfinity, noHull()};
+    const Sweep sweep = {true, 1.0f / radiusPx, surfaceGap, vec3(0.0f),
+                         0.0f, -kInfinity,      noHull(),   noVelocities()};
     return sweep;
 }
 
 KERNEL void visit(IN(Candidate) candidate, INOUT(Sweep) sweep) {
-    if (sweep.weightSum > 0.0f && candidate.slope > sweep.slopeMax + sweep.surfaceGap) {
+    bool parted = candidate.slope > sweep.slopeMax + sweep.surfaceGap;
+    if (kMoving) {
+        parted = parted || isApart(sweep.velocities, candidate.velocity, motionLayout.velocityGap);
+        addVelocity(sweep.velocities, candidate.velocity);
+    }
+    if (sweep.weightSum > 0.0f && parted) {
         sweep.running = false;
         return;
     }

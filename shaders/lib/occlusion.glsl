@@ -2,6 +2,7 @@
 #ifndef SLANT_LIB_OCCLUSION_GLSL
 #define SLANT_LIB_OCCLUSION_GLSL
 #include "lib/hash.glsl"
+#include "lib/motion.glsl"
 #include "shared/reconstruct.h"
 
 SLANT_SHARED_BEGIN
@@ -39,11 +40,28 @@ KERNEL int blockOf(IN(OcclusionLayout) layout_, vec2 p, float slope, vec2 origin
     return (plane * layout_.blockCount.y + block.y) * layout_.blockCount.x + block.x;
 }
 
-/// 1 / (part of the lens from which a sample is visible), at most 1 / kMinVisible; of its block's rays
-/// `stopped` end before they get there, `radiusRatio` as radiusRatioAt.
-KERNEL float visibilityWeight(IN(OcclusionLayout) layout_, uint stopped, float radiusRatio) {
+/// Part of the lens from which a sample is visible; of its block's rays `stopped` end before they get there,
+/// `radiusRatio` as radiusRatioAt. Below 0 by chance.
+KERNEL float visiblePart(IN(OcclusionLayout) layout_, uint stopped, float radiusRatio) {
     const float rays = layout_.raysPerBlock * (radiusRatio * radiusRatio);
-    return 1.0f / max(1.0f - float(stopped) / rays, kMinVisible);
+    return 1.0f - float(stopped) / rays;
+}
+
+/// 1 / that, at most 1 / kMinVisible.
+KERNEL float visibilityWeight(IN(OcclusionLayout) layout_, uint stopped, float radiusRatio) {
+    return 1.0f / max(visiblePart(layout_, stopped, radiusRatio), kMinVisible);
+}
+
+/// Blocks of one slot of time; where things move, each slot has its own.
+KERNEL int blocksPerSlot(IN(OcclusionLayout) layout_) {
+    return layout_.planeCount * layout_.blockCount.y * layout_.blockCount.x;
+}
+KERNEL int slotAt(IN(MotionLayout) motion, float t) {
+    return int(clamp(floor(t * motion.timeSlots), 0.0f, motion.timeSlots - 1.0f));
+}
+/// Of a plane of ranks, where things move.
+KERNEL float slopeOfPlane(IN(OcclusionLayout) layout_, IN(MotionLayout) motion, int plane) {
+    return motion.c2 + motion.slopePerRank * planeSlope(layout_, plane);
 }
 
 SLANT_SHARED_END

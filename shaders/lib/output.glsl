@@ -45,6 +45,13 @@ KERNEL uint seedOf(ivec2 pixel, uint seed) {
     return hash(uint(pixel.x) + hash(uint(pixel.y) + hash(seed)));
 }
 
+/// Time of an output in its part of a shutter (open, span) that is cut into one for each output of a pixel.
+KERNEL float timeInShutter(ivec2 pixel, int index, uint part, int outputsPerPixel, uint seed, vec2 shutter) {
+    const uint jitter = hash(hash(seedOf(pixel, seed) ^ 0x9e3779b9u) + uint(index) * 0x85ebca6bu);
+    const float place = (float(jitter >> 8) + 0.5f) * (1.0f / 16777216.0f);
+    return shutter.x + shutter.y * ((float(part) + place) / float(outputsPerPixel));
+}
+
 /// An output of a pixel, seen through the middle of the lens.
 KERNEL Output placed(ivec2 pixel, uvec4 entry, uint pixelSeed) {
     const uint qx = owenScramble(entry.x, hash(pixelSeed ^ 0xa511e9b3u)) >> 20;

@@ -31,23 +31,23 @@ KERNEL vec2 seenFrom(IN(Trajectory) trajectory, vec2 uv) {
 }
 
 /// Bounds of how far trajectories are seen from their pinhole positions.
-struct Motion {
+struct Shift {
     vec2 low, high;
 };
 
 /// Of slopes from one to another, from one place on the lens.
-KERNEL Motion motionAt(vec2 uv, float slopeMin, float slopeMax) {
+KERNEL Shift shiftAt(vec2 uv, float slopeMin, float slopeMax) {
     const vec2 a = slopeMin * uv, b = slopeMax * uv;
-    const Motion motion = {min(a, b), max(a, b)};
-    return motion;
+    const Shift shift = {min(a, b), max(a, b)};
+    return shift;
 }
 
 /// The same over a box of places.
-KERNEL Motion motionOver(vec2 uvMin, vec2 uvMax, float slopeMin, float slopeMax) {
+KERNEL Shift shiftOver(vec2 uvMin, vec2 uvMax, float slopeMin, float slopeMax) {
     const vec2 a = slopeMin * uvMin, b = slopeMin * uvMax;
     const vec2 c = slopeMax * uvMin, d = slopeMax * uvMax;
-    const Motion motion = {min(min(a, b), min(c, d)), max(max(a, b), max(c, d))};
-    return motion;
+    const Shift shift = {min(min(a, b), min(c, d)), max(max(a, b), max(c, d))};
+    return shift;
 }
 
 SLANT_SHARED_END

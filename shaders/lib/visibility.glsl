@@ -7,31 +7,37 @@
 // and their number has no limit. And a surface that does not cover the output is not dropped but weighted by
 // its density, so that small and thin objects keep their brightness.
 //
-// What lib/search.glsl needs of a sweep. In C++ it is included in a struct, after lib/surface.glsl.
+// What lib/search.glsl needs of a sweep; with kMoving and motionLayout as there. In C++ it is included in a
+// struct, after lib/surface.glsl.
 #include "lib/surface.glsl"
 
 struct Sweep {
     bool running; // false: nothing behind shows through
     float baseRadius, surfaceGap, fullWeight;
-    Surface surface;     // the last one
-    Composite composite; // of those before it
+    Surface surface;        // the last one
+    Composite composite;    // of those before it
+    VelocityBox velocities; // of the last one
 };
 
 KERNEL Sweep newSweep(IN(GridLayout) grid, float baseRadius) {
     const float widening = baseRadius / grid.radiusPx;
     const Composite none = {vec3(0.0f), 1.0f};
     const Sweep sweep = {true,        baseRadius, grid.surfaceGap, kFullWeight * widening * widening,
-                         noSurface(), none};
+                         noSurface(), none,       noVelocities()};
     return sweep;
 }
 
 KERNEL void visit(IN(Candidate) candidate, INOUT(Sweep) sweep) {
-    if (sweep.surface.count > 0 && candidate.slope > sweep.surface.slopeMax + sweep.surfaceGap) {
+    bool parted = candidate.slope > sweep.surface.slopeMax + sweep.surfaceGap;
+    if (kMoving) parted = parted || isApart(sweep.velocities, candidate.velocity, motionLayout.velocityGap);
+    if (sweep.surface.count > 0 && parted) {
         addSurface(sweep.composite, sweep.surface, sweep.fullWeight);
         sweep.surface = noSurface();
         sweep.running = sweep.composite.transmittance > 0.0f;
         if (!sweep.running) return;
+        sweep.velocities = noVelocities();
     }
+    if (kMoving) addVelocity(sweep.velocities, candidate.velocity);
     addSample(sweep.surface, candidate, sweep.baseRadius);
 }
 

@@ -1,15 +1,15 @@
 // One output of the method `window`, which host/reconstruct/window.h explains.
 //
 // Needs, declared before the include: positionAt(uint), valueAt(uint) and pixelStartAt(int), which read
-// the samples; keepCandidate(int place, WindowCandidate) and keptCandidate(int place, Output), which hold
-// candidates; and sortCandidates(int count), which puts them front to back, and in the order of samples where
-// slopes are equal. In C++ it is included in a struct that has these, after lib/candidate.glsl,
-// lib/gaussian.glsl and lib/output.glsl.
+// the samples; kMoving, whether anything moves, and then motionAt(uint); keepCandidate(int place,
+// WindowCandidate) and keptCandidate(int place, Output), which hold candidates; and sortCandidates(int
+// count), which puts them front to back, and in the order of samples where slopes are equal. In C++ it is
+// included in a struct that has these, after lib/candidate.glsl, lib/gaussian.glsl and lib/output.glsl.
 #include "shared/window.h"
 #include "lib/candidate.glsl"
 #include "lib/gaussian.glsl"
+#include "lib/motion.glsl"
 #include "lib/output.glsl"
-#include "lib/trajectory.glsl"
 
 /// What is known about an apparent surface.
 struct WindowSurface {
@@ -24,11 +24,20 @@ KERNEL WindowSurface noWindowSurface() {
     return surface;
 }
 
-KERNEL vec2 offsetOf(IN(vec4) position, IN(Output) o) {
-    const Trajectory trajectory = {vec2(position), position.z};
+/// A sample as the output sees it.
+KERNEL WindowCandidate candidateAt(uint record, IN(vec4) position, IN(Output) o) {
+    Trajectory trajectory = {vec2(position), position.z};
+    vec2 velocity = vec2(0.0f);
+    if (kMoving) {
+        const Motion motion = motionOf(motionAt(record));
+        trajectory = atTime(trajectory, motion, o.t - 0.5f);
+        velocity = motion.velocity;
+    }
     vec2 offset = seenFrom(trajectory, o.uv) - o.xy;
     if (o.onSceneSide) offset = onFilm(o, offset);
-    return offset;
+    const WindowCandidate candidate = {offset, offset.x * offset.x + offset.y * offset.y, trajectory.slope,
+                                       record, velocity};
+    return candidate;
 }
 
 KERNEL void addToSurface(INOUT(WindowSurface) surface, IN(WindowCandidate) candidate, float alpha) {
@@ -39,12 +48,14 @@ KERNEL void addToSurface(INOUT(WindowSurface) surface, IN(WindowCandidate) candi
     addPoint(surface.hull, candidate.offset);
 }
 
-/// Whether two trajectories keep their order, in x and in y, over a lens step to either side.
+/// Whether two trajectories keep their order, in x and in y, over a lens step to either side and half as much
+/// of the shutter, which is half as long as the lens is wide.
 KERNEL bool sameSurface(IN(WindowCandidate) a, IN(WindowCandidate) b, float lensStep) {
     const vec2 apart = a.offset - b.offset;
-    const float shear = (a.slope - b.slope) * lensStep;
-    return (apart.x + shear > 0.0f) == (apart.x - shear > 0.0f) &&
-           (apart.y + shear > 0.0f) == (apart.y - shear > 0.0f);
+    vec2 shear = vec2((a.slope - b.slope) * lensStep);
+    if (kMoving) shear = abs(shear) + abs(a.velocity - b.velocity) * (0.5f * lensStep);
+    return (apart.x + shear.x > 0.0f) == (apart.x - shear.x > 0.0f) &&
+           (apart.y + shear.y > 0.0f) == (apart.y - shear.y > 0.0f);
 }
 
 struct WindowFinds {
@@ -65,14 +76,12 @@ KERNEL WindowFinds collect(IN(WindowSearch) search, ivec2 pixel, IN(Output) o) {
         const uint begin = pixelStartAt(row + first.x), end = pixelStartAt(row + last.x + 1);
         for (uint record = begin; record < end; ++record) {
             IN(vec4) position = positionAt(record);
-            const vec2 offset = offsetOf(position, o);
-            const float distance2 = offset.x * offset.x + offset.y * offset.y;
-            if (distance2 < finds.nearest2) {
-                finds.nearest2 = distance2;
+            const WindowCandidate candidate = candidateAt(record, position, o);
+            if (candidate.distance2 < finds.nearest2) {
+                finds.nearest2 = candidate.distance2;
                 finds.nearest = record;
             }
-            if (!(distance2 < position.w)) continue;
-            const WindowCandidate candidate = {offset, distance2, position.z, record};
+            if (!(candidate.distance2 < position.w)) continue;
             keepCandidate(finds.count, candidate);
             ++finds.count;
         }
@@ -98,7 +107,7 @@ KERNEL WindowView viewOf(IN(WindowSearch) search, IN(WindowFinds) finds, IN(Outp
     // Sorts here and not while gathering: lavapipe counts a step of an inner loop even if it is not entered.
     sortCandidates(finds.count);
     WindowSurface front = noWindowSurface(), surface = noWindowSurface();
-    WindowCandidate previous = {vec2(0.0f), 0.0f, 0.0f, 0u};
+    WindowCandidate previous = {vec2(0.0f), 0.0f, 0.0f, 0u, vec2(0.0f)};
     bool taken = false;
     for (int i = 0; i < finds.count && !taken; ++i) {
         IN(WindowCandidate) candidate = keptCandidate(i, o);

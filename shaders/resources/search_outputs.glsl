@@ -8,15 +8,15 @@
 #include "resources/compound_lens.glsl"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 6) uniform utextureBuffer pattern;
-layout(set = 0, binding = 7, rgba32f) uniform writeonly imageBuffer dense;
-layout(set = 0, binding = 8, r32ui) uniform uimageBuffer counters;
-layout(set = 0, binding = 9, r32ui) uniform writeonly uimageBuffer visibilityList;
-layout(set = 0, binding = 10, r32ui) uniform writeonly uimageBuffer overflowList;
-layout(set = 0, binding = 11) uniform utextureBuffer left; // lists to search for: tile x, y, lens group, list
-layout(set = 0, binding = 12) uniform textureBuffer apertureTable;
-layout(set = 0, binding = 13) uniform textureBuffer lensMap;
-layout(set = 0, binding = 14) uniform utextureBuffer missed; // two per list: a bit for each pixel left
+layout(set = 0, binding = 9) uniform utextureBuffer pattern;
+layout(set = 0, binding = 10, rgba32f) uniform writeonly imageBuffer dense;
+layout(set = 0, binding = 11, r32ui) uniform uimageBuffer counters;
+layout(set = 0, binding = 12, r32ui) uniform writeonly uimageBuffer visibilityList;
+layout(set = 0, binding = 13, r32ui) uniform writeonly uimageBuffer overflowList;
+layout(set = 0, binding = 14) uniform utextureBuffer left; // lists to search for: tile x, y, lens group, list
+layout(set = 0, binding = 15) uniform textureBuffer apertureTable;
+layout(set = 0, binding = 16) uniform textureBuffer lensMap;
+layout(set = 0, binding = 17) uniform utextureBuffer missed; // two per list: a bit for each pixel left
 
 float apertureAt(int i) {
     return texelFetch(apertureTable, i).x;
@@ -36,6 +36,7 @@ uint memberAt(uint firstOfGroup, uint rank) {
 
 void main() {
     // Workgroups that share a list follow one another. There is no division: lavapipe divides lane by lane.
+    readMotionLayout();
     const OutputLayout outputs = push.outputs;
     const GridLayout grid = push.grid;
     const int groupBits = push.groupBits, takenBits = push.takenBits;
@@ -63,6 +64,10 @@ void main() {
     const int index = push.firstOutput + int(k);
     Output o = outputAt(outputs.regionOrigin + position, index, texelFetch(pattern, index), push.lensCells,
                         push.lensScale, outputs.seed);
+    if (kMoving)
+        o.t = timeInShutter(outputs.regionOrigin + position, index, texelFetch(pattern, index).z,
+                            outputs.outputsPerPixel, outputs.seed,
+                            vec2(motionLayout.shutterOpen, motionLayout.shutterSpan));
     const uint plane = uint(outputs.regionSize.x * outputs.regionSize.y);
     const uint inPlane = uint(position.y * outputs.regionSize.x + position.x), slot = k * plane + inPlane;
     for (uint other = rank + (1u << takenBits); other < 1u << groupBits; other += 1u << takenBits)

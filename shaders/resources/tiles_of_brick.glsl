@@ -1,14 +1,33 @@
 // Which tiles can see a brick through a lens group, whatever the lens. Needs lensTileBoundAt
-// (lib/lens_tiles.glsl).
+// (lib/lens_tiles.glsl), and the buffers bricks, brickMotions, brickOrder and motionTexels.
 #ifndef SLANT_RESOURCES_TILES_OF_BRICK_GLSL
 #define SLANT_RESOURCES_TILES_OF_BRICK_GLSL
 #include "lib/lens_tiles.glsl"
 #include "resources/brick.glsl"
 #include "resources/compound_lens.glsl"
+#include "resources/moving.glsl"
+
+/// Its number among the bricks; `rank` counts them front to back at the group's times, which `groupTimes`
+/// has.
+int brickAtRank(vec4 times, uint rank, uint brickTotal) {
+    return kMoving ? int(texelFetch(brickOrder, int(uint(times.z) * brickTotal + rank)).x) : int(rank);
+}
 
 /// `group` counts from the first of the chunk.
-ivec4 tilesOfBrick(Brick brick, GridLayout grid, OutputLayout outputs, vec4 box, int group, float marginPx) {
-    if (kCompoundLens) return tilesOfCompoundLens(brick, grid, outputs, group);
-    return tilesSeeing(brick, grid, outputs, box, marginPx);
+ivec4 tilesOfBrick(int id, GridLayout grid, OutputLayout outputs, vec4 box, vec2 times, int group,
+                   float marginPx) {
+    const Brick brick = brickOf(texelFetch(bricks, id));
+    if (!kCompoundLens && !kMoving) return tilesSeeing(brick, grid, outputs, box, marginPx);
+    BrickMotion motion;
+    float c2;
+    if (kMoving) {
+        motion = brickMotionOf(texelFetch(brickMotions, kBrickMotionTexels * id),
+                               texelFetch(brickMotions, kBrickMotionTexels * id + 1));
+        c2 = texelFetch(motionTexels, 0).x;
+    }
+    if (!kCompoundLens) return tilesSeeingMoving(brick, motion, grid, outputs, box, times, c2, marginPx);
+    SweptBrick swept = sweptBrick(brick, grid);
+    if (kMoving) sweepOver(swept, motion, times, c2);
+    return tilesOfCompoundLens(swept, grid, outputs, group);
 }
 #endif

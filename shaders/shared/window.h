@@ -29,6 +29,7 @@ struct WindowCandidate {
     vec2 offset; // from the output, pixels
     float distance2, slope;
     uint record;
+    vec2 velocity; // pixels per shutter
 };
 
 /// How an output is found in its window.

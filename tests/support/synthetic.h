@@ -31,6 +31,15 @@ struct Layer {
     std::function<glm::vec3(glm::vec2)> colour;
 };
 
+/// A plane that moves: all as it is in the middle of the shutter, the motion over the whole shutter relative
+/// to its depth there (relativeMotion).
+struct MovingLayer {
+    Layer middle;
+    glm::vec3 motion{0};
+};
+/// Slopes of moving layers.
+inline constexpr SlopeModel kMovingLens{-30, 15};
+
 /// Adds the nearest layer (they are ordered front to back) that is hit, as a sample.
 inline void look(LightField& field, const std::vector<Layer>& layers, glm::vec2 xy, glm::vec2 uv, float t) {
     LightFieldSample s{xy.x, xy.y, uv.x, uv.y, t, INFINITY, 0, 0};
@@ -48,9 +57,33 @@ inline void look(LightField& field, const std::vector<Layer>& layers, glm::vec2 
     field.radiance.push_back(radiance);
 }
 
+/// The same for layers that move, in any order: the nearest at its time counts.
+inline void look(LightField& field, const std::vector<MovingLayer>& layers, glm::vec2 xy, glm::vec2 uv,
+                 float t) {
+    LightFieldSample s{xy.x, xy.y, uv.x, uv.y, t, INFINITY, kMovingLens.c2, 0};
+    glm::vec3 radiance(0), motion(0);
+    for (const MovingLayer& layer : layers) {
+        const float depth = 1 + (t - 0.5f) * layer.motion.z;
+        const float w = kMovingLens.c1 / (layer.middle.slope - kMovingLens.c2);
+        const glm::vec2 seen = xy - kMovingLens(w * depth) * uv;
+        const glm::vec2 p = seen * depth - (t - 0.5f) * glm::vec2(layer.motion);
+        if (!(w * depth < s.w) || !layer.middle.inside(p)) continue;
+        s.w = w * depth;
+        s.slope = kMovingLens(s.w);
+        s.alpha = 1;
+        motion = layer.motion * w;
+        radiance = layer.middle.colour(p);
+    }
+    field.slopeModel = kMovingLens;
+    field.samples.push_back(s);
+    field.radiance.push_back(radiance);
+    field.motion.push_back(motion);
+}
+
 /// Adds a pixel's samples: a sqrt(spp)-ish grid in the pixel, jittered, and a shuffled one on the lens.
-inline void addPixel(LightField& field, const std::vector<Layer>& layers, int x, int y, int spp,
-                     std::uint32_t seed, const Aperture& aperture) {
+template <typename Layers>
+void addPixel(LightField& field, const Layers& layers, int x, int y, int spp, std::uint32_t seed,
+              const Aperture& aperture) {
     const int columns = std::max(1, int(std::lround(std::sqrt(double(spp)))));
     const int rows = (spp + columns - 1) / columns;
     Random random(seed + std::uint32_t(y * 7919 + x * 104729));
@@ -68,9 +101,10 @@ inline void addPixel(LightField& field, const std::vector<Layer>& layers, int x,
 }
 
 /// countAt(x, y) samples in each pixel of the frame and its overscan.
-inline LightField sample(const std::vector<Layer>& layers, Rect frame, int overscan,
-                         const std::function<int(int x, int y)>& countAt, std::uint32_t seed,
-                         const Aperture& aperture = {}) {
+template <typename Layers>
+LightField sampleLayers(const Layers& layers, Rect frame, int overscan,
+                        const std::function<int(int x, int y)>& countAt, std::uint32_t seed,
+                        const Aperture& aperture) {
     LightField field;
     field.aperture = aperture;
     field.frame = frame;
@@ -85,11 +119,21 @@ inline LightField sample(const std::vector<Layer>& layers, Rect frame, int overs
     return field;
 }
 
+inline LightField sample(const std::vector<Layer>& layers, Rect frame, int overscan,
+                         const std::function<int(int x, int y)>& countAt, std::uint32_t seed,
+                         const Aperture& aperture = {}) {
+    return sampleLayers(layers, frame, overscan, countAt, seed, aperture);
+}
+
 /// Equally many in every pixel.
 inline LightField sample(const std::vector<Layer>& layers, Rect frame, int overscan, int spp,
                          std::uint32_t seed, const Aperture& aperture = {}) {
-    return sample(
+    return sampleLayers(
         layers, frame, overscan, [=](int, int) { return spp; }, seed, aperture);
+}
+inline LightField sampleMoving(const std::vector<MovingLayer>& layers, Rect frame, int overscan, int spp,
+                               std::uint32_t seed) {
+    return sampleLayers(layers, frame, overscan, [=](int, int) { return spp; }, seed, {});
 }
 
 /// A number that is the same for a pixel in every run.
@@ -128,6 +172,13 @@ inline std::vector<Layer> discsOverChecks() {
              return odd ? glm::vec3(0.8f) : glm::vec3(0.1f, 0.2f, 0.1f);
          }},
     };
+}
+
+/// The same, with all in motion: discs that cross each other, one kind towards the camera, and a background
+/// that goes by.
+inline std::vector<MovingLayer> movingDiscs() {
+    const std::vector<Layer> layers = discsOverChecks();
+    return {{layers[0], {14, 5, -0.3f}}, {layers[1], {-20, 12, 0}}, {layers[2], {6, 0, 0.1f}}};
 }
 
 } // namespace slant::synthetic

@@ -1,10 +1,12 @@
 // Which samples lib/search.glsl visits, and in which order, against all samples of a field in double
 // precision.
-#include "reconstruct/bin_fetches.h"
+#include "reconstruct/candidates.h"
+#include "reconstruct/kernels.h"
 #include "support/brute_force.h"
 #include "support/synthetic.h"
 
 #include <gtest/gtest.h>
+#include <limits>
 #include <map>
 #include <numeric>
 
@@ -14,7 +16,10 @@ namespace {
 const Rect kFrame{0, 0, 44, 36};
 
 /// A sweep that keeps all candidates. Colours identify samples.
-struct KeepingKernels : BinFetches {
+struct KeepingKernels {
+    static constexpr bool kMoving = false;
+#include "reconstruct/bin_fetches.h"
+
     struct Sweep {
         bool running = true;
         std::size_t most = 1u << 30;
@@ -24,7 +29,9 @@ struct KeepingKernels : BinFetches {
         sweep.visited.push_back(candidate);
         sweep.running = sweep.visited.size() < sweep.most;
     }
-    static bool hides(const Sweep&, const Brick&) { return false; }
+    static bool hides(const Sweep&, const Brick&) {
+        return false;
+    }
 #include "lib/search.glsl"
 };
 
@@ -44,7 +51,7 @@ struct Field {
 
     KeepingKernels::Sweep visited(const Output& o, float radius, float maxRatio = kAnyRadiusRatio) const {
         const SearchContext context{bins, allBricks};
-        KeepingKernels kernels{{context}};
+        KeepingKernels kernels{context};
         KeepingKernels::Sweep sweep;
         kernels.forEachCandidate(bins.grid, o, radius, maxRatio, 0, kernels.listLength(), sweep);
         return sweep;
@@ -151,7 +158,7 @@ TEST(Candidates, stopWhenTheSweepDoes) {
     const Field f(synthetic::sample(synthetic::discsOverChecks(), kFrame, 15, 4, 3));
     for (const Output& o : someOutputs(60)) {
         const SearchContext context{f.bins, f.allBricks};
-        KeepingKernels kernels{{context}};
+        KeepingKernels kernels{context};
         KeepingKernels::Sweep all, some;
         const float radius = 2 * f.bins.grid.radiusPx;
         const int steps =

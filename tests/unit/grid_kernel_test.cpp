@@ -67,9 +67,10 @@ TEST(Grid, samplesLieInTheirCellsAndBuckets) {
         std::size_t binned = 0;
         for (const LightFieldSample& s : f.field.samples) {
             const glm::dvec2 p = pinholeOf(s);
-            if (!reaches(s, kFrame, 10)) continue;
+            if (!reaches(trajectoryOf(s), vec2(kFrame.x0, kFrame.y0), vec2(kFrame.x1, kFrame.y1), 10))
+                continue;
             ++binned;
-            const uint key = sortKey(grid, pinholePosition(s), s.slope);
+            const uint key = sortKey(grid, pinholePosition(s), bucketOf(grid, s.slope));
             const uint cells = uint(side * side), brick = key / cells;
             const ivec2 place(int(brick) % grid.brickCount.x,
                               int(brick) / grid.brickCount.x % grid.brickCount.y);

@@ -112,6 +112,8 @@ TEST_P(LensMapOf, tilesSeeTheBricksOfWhatTheirOutputsSee) {
     constexpr float kMarginPx = 1.5f;
     const std::vector<float> bounds =
         lensTileBounds(map_, pattern, 0, pattern.groups.size(), grid, layout, kMarginPx);
+    Bins bins;
+    bins.grid = grid;
     double seen = 0;
     int looked = 0;
     for (int i = 0; i < 20000; ++i) {
@@ -127,9 +129,9 @@ TEST_P(LensMapOf, tilesSeeTheBricksOfWhatTheirOutputsSee) {
         const ivec2 cell((p - grid.origin) * grid.invCell);
         if (cell.x < 1 || cell.y < 1 || cell.x >= 2999 || cell.y >= 2999) continue;
         const uint place = uint(cell.x | cell.y << 16);
-        const Brick brick{place, uint(kRadiusSteps) << 12, slope - wide, slope + wide};
+        bins.bricks = {{place, uint(kRadiusSteps) << 12, slope - wide, slope + wide}};
         const TileRange range =
-            tilesOfCompoundLens(brick, grid, layout, bounds, std::size_t(index / pattern.groupSize()));
+            tilesOfCompoundLens(bins, 0, layout, bounds, std::size_t(index / pattern.groupSize()), vec2(0));
         const ivec2 tile = position / kTileSize;
         ASSERT_TRUE(tile.x >= range.first.x && tile.x < range.last.x && tile.y >= range.first.y &&
                     tile.y < range.last.y)

@@ -31,9 +31,10 @@ class Occlusion : public testing::TestWithParam<int> {};
 
 TEST_P(Occlusion, partOfTheLensBehindAnEdge) {
     const LightField field = halfPlaneBeforePlane(GetParam());
-    const GridLayout grid = chooseGrid(field.samples, densityOf(SceneSideSamples(field)), {kFrame});
-    const OcclusionLayout layout = chooseOcclusion(grid, densityOf(SceneSideSamples(field)));
-    const std::vector<uint> stopped = countStopped(field.samples, grid, layout);
+    MotionGrid still;
+    const GridLayout grid = chooseGrid(SceneSideSamples(field), densityOf(SceneSideSamples(field)), {kFrame});
+    const OcclusionLayout layout = chooseOcclusion(grid, densityOf(SceneSideSamples(field)), still);
+    const std::vector<uint> stopped = countStopped(SceneSideSamples(field), grid, layout, still);
     // A ray to p on the plane behind passes the front at p + (kBack - kFront) u.
     for (float x = 36.5f; x < 60; x += 1) {
         double mean = 0;
@@ -49,9 +50,10 @@ TEST_P(Occlusion, partOfTheLensBehindAnEdge) {
 
 TEST_P(Occlusion, nothingHidesTheFront) {
     const LightField field = halfPlaneBeforePlane(GetParam());
-    const GridLayout grid = chooseGrid(field.samples, densityOf(SceneSideSamples(field)), {kFrame});
-    const OcclusionLayout layout = chooseOcclusion(grid, densityOf(SceneSideSamples(field)));
-    const std::vector<uint> stopped = countStopped(field.samples, grid, layout);
+    MotionGrid still;
+    const GridLayout grid = chooseGrid(SceneSideSamples(field), densityOf(SceneSideSamples(field)), {kFrame});
+    const OcclusionLayout layout = chooseOcclusion(grid, densityOf(SceneSideSamples(field)), still);
+    const std::vector<uint> stopped = countStopped(SceneSideSamples(field), grid, layout, still);
     for (float x = 0; x < 48; x += 1)
         EXPECT_EQ(visibilityWeight(stopped, grid, layout, vec2(x, 30), kFront, 1), 1);
 }
@@ -67,8 +69,9 @@ TEST(OcclusionLayout, blocksStayBounded) {
     grid.surfaceGap = 0.5f;
     SampleDensity density;
     density.least = density.typical = 8;
-    const OcclusionLayout layout = chooseOcclusion(grid, density);
-    EXPECT_LE(stoppedBlocks(layout), std::size_t(1) << 25);
+    MotionGrid still;
+    const OcclusionLayout layout = chooseOcclusion(grid, density, still);
+    EXPECT_LE(stoppedBlocks(layout, still), std::size_t(1) << 25);
     const vec2 covered = vec2(layout.blockCount) / layout.invBlock;
     EXPECT_GE(covered.x, 32000);
     EXPECT_GE(covered.y, 24000);

@@ -41,7 +41,7 @@ TEST(Trajectory, boundsHoldEveryMotionAndAreMet) {
         const vec2 a = draw.place(-1, 1), b = draw.place(-1, 1);
         const vec2 low = min(a, b), high = max(a, b);
         const float s = draw(-40, 40), t = draw(-40, 40), slopeMin = min(s, t), slopeMax = max(s, t);
-        const Motion motion = motionOver(low, high, slopeMin, slopeMax);
+        const Shift shift = shiftOver(low, high, slopeMin, slopeMax);
         for (int axis = 0; axis < 2; ++axis) {
             double least = 1e9, most = -1e9;
             for (int corner = 0; corner < 4; ++corner) {
@@ -49,26 +49,26 @@ TEST(Trajectory, boundsHoldEveryMotionAndAreMet) {
                     double(corner & 1 ? high[axis] : low[axis]) * double(corner & 2 ? slopeMax : slopeMin);
                 least = std::min(least, at), most = std::max(most, at);
             }
-            ASSERT_NEAR(motion.low[axis], least, 1e-5);
-            ASSERT_NEAR(motion.high[axis], most, 1e-5);
+            ASSERT_NEAR(shift.low[axis], least, 1e-5);
+            ASSERT_NEAR(shift.high[axis], most, 1e-5);
             for (int k = 0; k < 50; ++k) {
                 const double u = double(low[axis]) + draw.part() * double(high[axis] - low[axis]);
                 const double slope = double(slopeMin) + draw.part() * double(slopeMax - slopeMin);
-                ASSERT_GE(slope * u, double(motion.low[axis]) - 1e-5);
-                ASSERT_LE(slope * u, double(motion.high[axis]) + 1e-5);
+                ASSERT_GE(slope * u, double(shift.low[axis]) - 1e-5);
+                ASSERT_LE(slope * u, double(shift.high[axis]) + 1e-5);
             }
         }
-        const Motion here = motionAt(a, slopeMin, slopeMax), same = motionOver(a, a, slopeMin, slopeMax);
+        const Shift here = shiftAt(a, slopeMin, slopeMax), same = shiftOver(a, a, slopeMin, slopeMax);
         ASSERT_EQ(here.low, same.low);
         ASSERT_EQ(here.high, same.high);
     }
 }
 
 TEST(Trajectory, boundsAroundTheFocusHoldBothSides) {
-    const Motion motion = motionOver(vec2(-0.5f, 0.25f), vec2(1, 0.5f), -2, 4);
-    EXPECT_EQ(motion.low, vec2(-2, -1));
-    EXPECT_EQ(motion.high, vec2(4, 2));
-    const Motion at = motionAt(vec2(-0.5f, 0.25f), -2, 4);
+    const Shift shift = shiftOver(vec2(-0.5f, 0.25f), vec2(1, 0.5f), -2, 4);
+    EXPECT_EQ(shift.low, vec2(-2, -1));
+    EXPECT_EQ(shift.high, vec2(4, 2));
+    const Shift at = shiftAt(vec2(-0.5f, 0.25f), -2, 4);
     EXPECT_EQ(at.low, vec2(-2, -0.5f));
     EXPECT_EQ(at.high, vec2(1, 1));
 }

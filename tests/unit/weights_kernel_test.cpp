@@ -60,7 +60,7 @@ TEST(DensityKernel, isTheMeanOfAllPixelsInTheSquareOfTheBlur) {
 /// For each plane and block, the followed rays that end before they reach it.
 std::vector<uint> stoppedBefore(const LightField& field, const GridLayout& grid,
                                 const OcclusionLayout& layout) {
-    std::vector<uint> stopped(stoppedBlocks(layout));
+    std::vector<uint> stopped(stoppedBlocks(layout, {}));
     for (int plane = 0; plane < layout.planeCount; ++plane) {
         const double begin = double(layout.slopeMin) + plane * double(layout.spacing);
         const double slope = begin + double(layout.spacing) / 2;
@@ -94,9 +94,10 @@ std::vector<LightField> fields() {
 TEST(OcclusionKernel, countsTheRaysThatEndBeforeABlock) {
     for (const LightField& field : fields()) {
         const SampleDensity density = densityOf(SceneSideSamples(field));
-        const GridLayout grid = chooseGrid(field.samples, density, {kFrame});
-        const OcclusionLayout layout = chooseOcclusion(grid, density);
-        const std::vector<uint> got = countStopped(field.samples, grid, layout);
+        const GridLayout grid = chooseGrid(SceneSideSamples(field), density, {kFrame});
+        MotionGrid still;
+        const OcclusionLayout layout = chooseOcclusion(grid, density, still);
+        const std::vector<uint> got = countStopped(SceneSideSamples(field), grid, layout, still);
         const std::vector<uint> expected = stoppedBefore(field, grid, layout);
         ASSERT_EQ(got.size(), expected.size());
         double rays = 0, apart = 0;
@@ -119,7 +120,8 @@ TEST(OcclusionKernel, weightsOfBinsAreTheRaysThatAreLeft) {
         const SceneSideSamples source(field);
         const SampleDensity density = densityOf(source);
         const Bins bins = binSamples(source, {kFrame});
-        const OcclusionLayout layout = chooseOcclusion(bins.grid, density);
+        MotionGrid still;
+        const OcclusionLayout layout = chooseOcclusion(bins.grid, density, still);
         const std::vector<uint> stopped = stoppedBefore(field, bins.grid, layout);
         std::size_t different = 0, hidden = 0;
         for (std::size_t record = 0; record < bins.samples.size(); ++record) {
