@@ -121,7 +121,7 @@ TEST_F(Auxiliary, depthIsThatOfTheRaysThatHit) {
         options.outputsPerPixel = 64;
         CpuReconstructor cpu;
         Image image(frame, {"Y"});
-        for (const AuxiliarySet& set : auxiliarySets(false))
+        for (const AuxiliarySet& set : auxiliarySets(false, false))
             addChannels(image, set, test::run(cpu, field, options, {}, set.plane).image);
         EXPECT_EQ(image.channels, (Channels{"Y", "A", "Z"}));
         return image;
