@@ -2,8 +2,8 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "lib/trajectory.glsl"
 #include "lightfield/field_file.h"
+#include "lightfield/motion.h"
 
 #include <array>
 #include <bit>
@@ -63,8 +63,8 @@ private:
     static bool sameBits(const glm::vec3& a, const glm::vec3& b) {
         return std::memcmp(&a, &b, sizeof a) == 0;
     }
-    static glm::vec3 perspectiveMotion(const LightFieldSample& s, const glm::vec3& affine) {
-        const glm::vec2 p = pinholeOf({s.x, s.y}, {s.u, s.v}, s.slope);
+    glm::vec3 perspectiveMotion(const LightFieldSample& s, const glm::vec3& affine) const {
+        const glm::vec2 p = pinholePosition(field_, s);
         return {(std::isinf(s.w) ? 1 : s.w) * glm::vec2(affine) + affine.z * p, affine.z};
     }
 
