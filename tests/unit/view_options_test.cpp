@@ -47,7 +47,7 @@ TEST(ViewOptions, slowMotionTakesEvenStepsOfTimeBothEndsIncluded) {
     const std::vector<ViewStep> steps = viewSteps(options);
     ASSERT_EQ(steps.size(), 5u);
     for (std::size_t i = 0; i < steps.size(); ++i) {
-        EXPECT_FLOAT_EQ(steps[i].shutter.open, 0.9f - 0.2f * float(i));
+        EXPECT_NEAR(steps[i].shutter.open, 0.9f - 0.2f * float(i), 1e-6f);
         EXPECT_EQ(steps[i].shutter.open, steps[i].shutter.close);
         EXPECT_EQ(*steps[i].focusDistance, 3);
     }
