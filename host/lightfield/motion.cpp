@@ -13,9 +13,10 @@ float nearestApproach(const LightFieldSample& s, const glm::vec3& motion) {
     return std::min(1 - s.t * speed, 1 + (1 - s.t) * speed);
 }
 
-/// The bound of the motion's w over the depth: r with 1 - t r >= kNearestApproach and 1 + (1 - t) r likewise.
+/// The motion's w over the depth, limited so that 1 - t r >= kNearestApproach and 1 + (1 - t) r likewise; by
+/// a little more than rounding may undo, so that it is not limited a second time.
 double limitedSpeed(double time, double speed) {
-    constexpr double kMost = 1 - double(kNearestApproach);
+    constexpr double kMost = 1 - 1.0001 * double(kNearestApproach);
     if (time > 0) speed = std::min(speed, kMost / time);
     if (time < 1) speed = std::max(speed, -kMost / (1 - time));
     return speed;
