@@ -9,7 +9,6 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <mutex>
 #include <string_view>
 
@@ -52,16 +51,16 @@ public:
         const LightFieldSample& s = field_.samples[i] = sampleOf(r, field_.slopeModel);
         field_.radiance[i] = radianceOf(r);
         const glm::vec3 m(r[11], r[12], r[13]);
-        if (sameBits(m, glm::vec3(0))) return;
+        if (isPlusZero(m)) return;
         std::call_once(moves_, [&] { allocateMotion(field_); });
         field_.motion[i] = model_ == TlfrMotion::affine ? perspectiveMotion(s, m) : m;
     }
     void finish() { dropZeroMotion(field_); }
 
 private:
-    /// Bits, so that -0 is kept.
-    static bool sameBits(const glm::vec3& a, const glm::vec3& b) {
-        return std::memcmp(&a, &b, sizeof a) == 0;
+    /// -0 is kept as it is.
+    static bool isPlusZero(const glm::vec3& m) {
+        return m == glm::vec3(0) && !std::signbit(m.x) && !std::signbit(m.y) && !std::signbit(m.z);
     }
     glm::vec3 perspectiveMotion(const LightFieldSample& s, const glm::vec3& affine) const {
         const glm::vec2 p = pinholePosition(field_, s);
