@@ -47,10 +47,10 @@ public:
                                           "make of its pupils is not known");
         reconstruction_.anyFocus = options_.view.refocuses();
         checkBudget(file_.field.frame, int(sampleCounts(file_.field).max), reconstruction_);
-        const double outside =
-            shareOutside(view_.apertureOf(file_.field), view_.apertureScale, file_.field.aperture);
         if (options_.view.changesTime() && !file_.field.moves())
             monitor.warn("nothing moves in this field: it looks the same at every time");
+        const double outside =
+            shareOutside(view_.apertureOf(file_.field), view_.apertureScale, file_.field.aperture);
         if (outside > kNegligible)
             monitor.warn(
                 fmt::format("{:.2g} % of this lens lies outside the traced one and is extrapolation: "
