@@ -94,13 +94,18 @@ void printText(const std::string& path, const FieldFile& file, const FieldSummar
     for (std::size_t i = 0; i < summary.ranges.size(); ++i)
         line(FieldSummary::kNames[i], rangeText(summary.ranges[i]));
     line("background", fmt::format("{} samples", summary.background));
-    if (file.movingSamples > 0) line("moving", fmt::format("{} samples", file.movingSamples));
+    if (summary.moving > 0)
+        line("moving",
+             fmt::format("{} samples, by up to {:.4g} pixels from shutter open to close, half of them "
+                         "by up to {:.4g}",
+                         summary.moving, summary.largestMotionPx, summary.medianMotionPx));
     if (summary.outsidePixel > 0) line("outside pixel", fmt::format("{} samples", summary.outsidePixel));
     const FieldDefects& d = summary.defects;
     line("invalid",
          fmt::format("{} of non-finite and {} of negative radiance, {} of bad depth, {} outside the "
-                     "lens, {} of bad position",
-                     d.nonFiniteRadiance, d.negativeRadiance, d.badDepth, d.outsideLens, d.badPosition));
+                     "lens, {} of bad position, {} of bad motion, {} that come too near",
+                     d.nonFiniteRadiance, d.negativeRadiance, d.badDepth, d.outsideLens, d.badPosition,
+                     d.badMotion, d.limitedMotion));
 }
 
 nlohmann::ordered_json rectJson(const Rect& r) {
@@ -144,14 +149,18 @@ void printJson(const std::string& path, const FieldFile& file, const FieldSummar
         {"source", details.source},
         {"ranges", nlohmann::ordered_json::object()},
         {"background", summary.background},
-        {"moving", file.movingSamples},
+        {"moving", summary.moving},
+        {"largestMotionPx", summary.largestMotionPx},
+        {"medianMotionPx", summary.medianMotionPx},
         {"outsidePixel", summary.outsidePixel},
         {"invalid",
          {{"nonFiniteRadiance", d.nonFiniteRadiance},
           {"negativeRadiance", d.negativeRadiance},
           {"badDepth", d.badDepth},
           {"outsideLens", d.outsideLens},
-          {"badPosition", d.badPosition}}}};
+          {"badPosition", d.badPosition},
+          {"badMotion", d.badMotion},
+          {"limitedMotion", d.limitedMotion}}}};
     for (std::size_t i = 0; i < summary.ranges.size(); ++i) {
         const ValueRange& range = summary.ranges[i];
         json["ranges"][FieldSummary::kNames[i]] =

@@ -40,7 +40,8 @@ void addImageOptions(CLI::App& command, PictureOptions& options) {
     command.add_flag("--float", options.float32, "32-bit floats in the EXR instead of half");
     command.add_flag(
         "--auxiliary", options.auxiliary,
-        "write coverage, depth, albedo and normals as further channels of the EXR: A, Z, albedo, N");
+        "write coverage, depth, albedo, normals and motion as further channels of the EXR: A, Z, albedo, N, "
+        "forward");
 }
 
 void addPictureOptions(CLI::App& command, PictureOptions& options) {
@@ -77,10 +78,11 @@ Scene readSceneFor(const std::string& path, const CommonOptions& options, Monito
 void warnOf(const FieldDefects& defects, std::uint64_t emptyPixels, Monitor& monitor) {
     if (defects.total() > 0)
         monitor.warn(
-            fmt::format("invalid samples: {} of non-finite and {} of negative radiance set to 0; {} of bad "
-                        "depth, {} outside the lens and {} of bad position left out",
+            fmt::format("invalid samples: {} of non-finite and {} of negative radiance set to 0; {} of "
+                        "bad depth, {} outside the lens, {} of bad position and {} of bad motion left "
+                        "out; {} would come too near, and their motion is limited",
                         defects.nonFiniteRadiance, defects.negativeRadiance, defects.badDepth,
-                        defects.outsideLens, defects.badPosition));
+                        defects.outsideLens, defects.badPosition, defects.badMotion, defects.limitedMotion));
     if (emptyPixels > 0) monitor.warn(fmt::format("{} pixels without a sample are black", emptyPixels));
 }
 

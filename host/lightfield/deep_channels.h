@@ -32,8 +32,9 @@ struct DeepPlane {
 };
 
 constexpr DeepPlane deepPlane(const char* x, const char* y, const char* z,
-                              std::vector<glm::vec3> SampleSet::*values) {
-    return {{{{x, 0}, {y, sizeof(float)}, {z, 2 * sizeof(float)}}}, values};
+                              std::vector<glm::vec3> SampleSet::*values, bool exact = false) {
+    return {{{{x, 0, true, exact}, {y, sizeof(float), true, exact}, {z, 2 * sizeof(float), true, exact}}},
+            values};
 }
 
 inline constexpr DeepPlane kRadiancePlane = deepPlane("R", "G", "B", &SampleSet::radiance);
@@ -42,12 +43,7 @@ inline constexpr std::array<DeepPlane, 2> kGuidePlanes = {
     deepPlane("albedo.R", "albedo.G", "albedo.B", &SampleSet::albedo),
     deepPlane("N.X", "N.Y", "N.Z", &SampleSet::normal)};
 
-/// Read to tell moving samples from others; not kept.
-struct MotionSample {
-    float x, y, w;
-};
-inline constexpr std::array<DeepChannel, 3> kMotionChannels = {{{"motion.x", offsetof(MotionSample, x)},
-                                                                {"motion.y", offsetof(MotionSample, y)},
-                                                                {"motion.w", offsetof(MotionSample, w)}}};
+inline constexpr DeepPlane kMotionPlane =
+    deepPlane("motion.x", "motion.y", "motion.w", &SampleSet::motion, true);
 
 } // namespace slant

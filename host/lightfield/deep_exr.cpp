@@ -190,6 +190,14 @@ std::vector<unsigned> readCounts(Imf::DeepScanLineInputFile& file, const Rect& b
     return counts;
 }
 
+/// Those that a field has room for.
+std::vector<DeepPlane> planesOf(const LightField& field) {
+    std::vector<DeepPlane> planes{kRadiancePlane};
+    if (field.hasGuides()) planes.insert(planes.end(), kGuidePlanes.begin(), kGuidePlanes.end());
+    if (field.moves()) planes.push_back(kMotionPlane);
+    return planes;
+}
+
 /// What a file without these channels means.
 void fillIn(LightField& field, bool alpha, bool slope) {
     for (LightFieldSample& s : field.samples) {
@@ -198,26 +206,16 @@ void fillIn(LightField& field, bool alpha, bool slope) {
     }
 }
 
-void readSamples(const FileLocation& where, Imf::DeepScanLineInputFile& file, FieldFile& result,
+void readSamples(const FileLocation& where, Imf::DeepScanLineInputFile& file, LightField& field,
                  Monitor& monitor) {
     const Imf::Header& header = file.header();
-    LightField& field = result.field;
     const Rect& bounds = field.bounds;
     DeepRow row(field);
-    const auto addAll = [&](const auto& channels, auto& samples, bool kept) {
-        row.add(present(where, header, channels), samples.data(), sizeof samples[0], kept);
+    const auto addAll = [&](const auto& channels, auto& samples) {
+        row.add(present(where, header, channels), samples.data(), sizeof samples[0]);
     };
-    addAll(kRadiancePlane.channels, field.radiance, true);
-    addAll(kSampleChannels, field.samples, true);
-    if (field.hasGuides())
-        for (const DeepPlane& plane : kGuidePlanes) addAll(plane.channels, field.*plane.values, true);
-    std::vector<MotionSample> motion; // of a row
-    if (hasAny(header, kMotionChannels)) {
-        std::size_t most = 0;
-        for (int y = bounds.y0; y < bounds.y1; ++y) most = std::max(most, rowSamples(field, y));
-        motion.resize(most);
-        addAll(kMotionChannels, motion, false);
-    }
+    addAll(kSampleChannels, field.samples);
+    for (const DeepPlane& plane : planesOf(field)) addAll(plane.channels, field.*plane.values);
 
     monitor.beginStage("read", field.samples.size(), "samples");
     file.setFrameBuffer(row.frameBuffer());
@@ -226,12 +224,10 @@ void readSamples(const FileLocation& where, Imf::DeepScanLineInputFile& file, Fi
         file.readPixelSampleCounts(y, y); // OpenEXR forgets them with every new frame buffer
         row.checkCounts(where);
         file.readPixels(y, y);
-        const auto last = motion.begin() + (motion.empty() ? 0 : long(rowSamples(field, y)));
-        result.movingSamples += std::uint64_t(std::count_if(
-            motion.begin(), last, [](const MotionSample& m) { return m.x != 0 || m.y != 0 || m.w != 0; }));
         monitor.advance(rowSamples(field, y));
     }
     fillIn(field, header.channels().findChannel("A"), header.channels().findChannel("slope"));
+    dropZeroMotion(field);
     monitor.endStage();
 }
 
@@ -262,14 +258,12 @@ Imf::Header makeHeader(const LightField& field, const FieldMetadata& details,
 void encode(Imf::OStream& stream, const LightField& field, const FieldMetadata& details, Monitor& monitor) {
     std::vector<DeepChannel> channels(kSampleChannels.begin(), kSampleChannels.end());
     if (!hasOwnSlopes(field)) channels.pop_back();
-    std::vector<DeepPlane> planes{kRadiancePlane};
-    if (field.hasGuides()) planes.insert(planes.end(), kGuidePlanes.begin(), kGuidePlanes.end());
     std::vector<DeepChannel> all = channels;
 
     DeepRow row(field);
     // OpenEXR only reads from them.
     row.add(channels, const_cast<LightFieldSample*>(field.samples.data()), sizeof(LightFieldSample));
-    for (const DeepPlane& plane : planes) {
+    for (const DeepPlane& plane : planesOf(field)) {
         all.insert(all.end(), plane.channels.begin(), plane.channels.end());
         row.add(plane.channels, const_cast<glm::vec3*>((field.*plane.values).data()), sizeof(glm::vec3));
     }
@@ -309,7 +303,8 @@ FieldFile readDeepExr(const std::string& path, Monitor& monitor) {
             std::any_of(kGuidePlanes.begin(), kGuidePlanes.end(),
                         [&](const DeepPlane& plane) { return hasAny(header, plane.channels); });
         allocateSamples(field, guides);
-        readSamples(where, file, result, monitor);
+        if (hasAny(header, kMotionPlane.channels)) allocateMotion(field);
+        readSamples(where, file, field, monitor);
     } catch (const Iex::BaseExc& error) {
         throw badInput(where, "is a damaged OpenEXR file: {}", error.what());
     }

@@ -19,10 +19,10 @@ DeepRow::DeepRow(const LightField& field) : field_(field), counts_(std::size_t(f
         Imf::Slice(Imf::UINT, originOf(counts_.data(), field.bounds.x0), sizeof(unsigned), 0));
 }
 
-void DeepRow::add(std::span<const DeepChannel> channels, void* samples, std::size_t stride, bool kept) {
+void DeepRow::add(std::span<const DeepChannel> channels, void* samples, std::size_t stride) {
     for (const DeepChannel& channel : channels) {
         channels_.push_back(
-            {static_cast<char*>(samples) + channel.offset, stride, kept, std::vector<char*>(counts_.size())});
+            {static_cast<char*>(samples) + channel.offset, stride, std::vector<char*>(counts_.size())});
         buffer_.insert(channel.name,
                        Imf::DeepSlice(Imf::FLOAT, originOf(channels_.back().pixels.data(), field_.bounds.x0),
                                       sizeof(char*), 0, stride));
@@ -34,10 +34,7 @@ void DeepRow::moveTo(int y) {
     for (std::size_t i = 0; i < counts_.size(); ++i) {
         const std::size_t sample = field_.firstSample(firstPixel_ + i);
         counts_[i] = unsigned(field_.samplesOf(firstPixel_ + i));
-        for (Channel& channel : channels_)
-            channel.pixels[i] =
-                channel.first +
-                (channel.kept ? sample : sample - field_.firstSample(firstPixel_)) * channel.stride;
+        for (Channel& channel : channels_) channel.pixels[i] = channel.first + sample * channel.stride;
     }
 }
 

@@ -19,9 +19,8 @@ public:
     DeepRow(const DeepRow&) = delete;
     DeepRow& operator=(const DeepRow&) = delete;
 
-    /// Channels of samples, `stride` bytes apart. The field's samples begin at `samples`; if samples are not
-    /// kept, those of every row do.
-    void add(std::span<const DeepChannel> channels, void* samples, std::size_t stride, bool kept = true);
+    /// Channels of samples, `stride` bytes apart. The field's samples begin at `samples`.
+    void add(std::span<const DeepChannel> channels, void* samples, std::size_t stride);
     void moveTo(int y);
     /// Throws Error(badInput) where the counts that were read last for this row are not those of the field:
     /// there is no room for more.
@@ -30,9 +29,8 @@ public:
 
 private:
     struct Channel {
-        char* first; ///< of the whole field, or of a row
+        char* first; ///< of the whole field
         std::size_t stride;
-        bool kept;
         std::vector<char*> pixels; ///< of this row
     };
 

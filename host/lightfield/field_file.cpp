@@ -39,6 +39,15 @@ bool isOpenExr(const std::string& path) {
     return std::memcmp(start, kMagic, sizeof start) == 0;
 }
 
+template <typename Action>
+void allocate(std::size_t samples, const Action& action) {
+    try {
+        action();
+    } catch (const std::exception&) { // bad_alloc or length_error
+        throw Error(ErrorCode::resources, fmt::format("no memory for {} samples", samples));
+    }
+}
+
 } // namespace
 
 std::string_view nameOf(FieldFormat format) {
@@ -141,11 +150,11 @@ std::span<const float> numbersOf(const LensMap& map) {
 
 void allocateSamples(LightField& field, bool guides) {
     const std::size_t count = field.firstSample(field.bounds.area());
-    try {
-        field.resize(count, guides);
-    } catch (const std::exception&) { // bad_alloc or length_error
-        throw Error(ErrorCode::resources, fmt::format("no memory for {} samples", count));
-    }
+    allocate(count, [&] { field.resize(count, guides); });
+}
+
+void allocateMotion(LightField& field) {
+    allocate(field.samples.size(), [&] { field.motion.assign(field.samples.size(), glm::vec3(0)); });
 }
 
 } // namespace slant

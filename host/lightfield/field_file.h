@@ -16,7 +16,6 @@ struct FieldFile {
     FieldFormat format = FieldFormat::deepExr;
     LightField field; ///< as it stands in the file: not sanitized
     FieldMetadata details;
-    std::uint64_t movingSamples = 0; ///< samples with non-zero motion, which is not kept
 };
 
 /// Its name in messages.
@@ -47,7 +46,9 @@ void takeSampleCounts(const FileLocation& location, LightField& field, std::span
 LensMap lensMapOf(const FileLocation& location, std::span<const float> numbers);
 std::span<const float> numbersOf(const LensMap& map);
 
-/// Makes room for the samples of checked extents; throws Error(resources) where there is none.
+/// Make room for the samples of checked extents, and for motion of 0; throw Error(resources) where there is
+/// none.
 void allocateSamples(LightField& field, bool guides);
+void allocateMotion(LightField& field);
 
 } // namespace slant

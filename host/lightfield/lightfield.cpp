@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "lightfield/motion.h"
 
 #include <algorithm>
 #include <atomic>
@@ -30,7 +31,8 @@ void repairComponent(float& value, bool& nonFinite, bool& negative) {
 } // namespace
 
 std::uint64_t FieldDefects::total() const {
-    return nonFiniteRadiance + negativeRadiance + badDepth + outsideLens + badPosition;
+    return nonFiniteRadiance + negativeRadiance + badDepth + outsideLens + badPosition + badMotion +
+           limitedMotion;
 }
 
 void FieldDefects::add(const FieldDefects& other) {
@@ -39,6 +41,8 @@ void FieldDefects::add(const FieldDefects& other) {
     badDepth += other.badDepth;
     outsideLens += other.outsideLens;
     badPosition += other.badPosition;
+    badMotion += other.badMotion;
+    limitedMotion += other.limitedMotion;
 }
 
 void SampleSet::resize(std::size_t count, bool guides, bool moving) {
@@ -53,7 +57,14 @@ SampleSpans spansOf(SampleSet& set) {
     return {set.samples, set.radiance, set.albedo, set.normal, set.motion};
 }
 
-void repair(LightFieldSample& s, glm::vec3& radiance, FieldDefects& defects) {
+void dropZeroMotion(LightField& field) {
+    const auto isZero = [](const glm::vec3& m) { return m == glm::vec3(0); };
+    if (std::all_of(field.motion.begin(), field.motion.end(), isZero))
+        std::vector<glm::vec3>().swap(field.motion);
+}
+
+void repair(const LightField& field, LightFieldSample& s, glm::vec3& radiance, glm::vec3& motion,
+            FieldDefects& defects) {
     bool nonFinite = false, negative = false;
     for (int i = 0; i < 3; ++i) repairComponent(radiance[i], nonFinite, negative);
     defects.nonFiniteRadiance += nonFinite;
@@ -63,10 +74,21 @@ void repair(LightFieldSample& s, glm::vec3& radiance, FieldDefects& defects) {
     const bool outsideLens = !(s.u * s.u + s.v * s.v <= kLensRadiusBound * kLensRadiusBound);
     const bool badPosition =
         !std::isfinite(s.x) || !std::isfinite(s.y) || !std::isfinite(s.t) || !std::isfinite(s.slope);
+    bool bad = badDepth || outsideLens || badPosition, badMotion = false;
+    if (!bad && motion != glm::vec3(0)) {
+        badMotion = !isFinite(motion) || !isFinite(relativeMotion(s, motion));
+        const bool limited = !badMotion && limitMotion(field, s, motion);
+        badMotion = badMotion || !isFinite(motion); // where positions are beyond all bounds
+        defects.limitedMotion += limited && !badMotion;
+        bad = badMotion;
+    }
     defects.badDepth += badDepth;
     defects.outsideLens += outsideLens;
     defects.badPosition += badPosition;
-    if (badDepth || outsideLens || badPosition) s.slope = std::numeric_limits<float>::quiet_NaN();
+    defects.badMotion += badMotion;
+    if (!bad) return;
+    s.slope = std::numeric_limits<float>::quiet_NaN();
+    motion = glm::vec3(0);
 }
 
 SampleCounts sampleCounts(const LightField& field) {
@@ -109,18 +131,23 @@ bool isThinLens(const LightField& field) {
 FieldDefects sanitize(LightField& field) {
     const auto fits = [&](std::size_t size) { return size == field.samples.size(); };
     if (!fits(field.radiance.size()) || (field.hasGuides() && !fits(field.albedo.size())) ||
-        field.normal.size() != field.albedo.size())
-        throw Error(ErrorCode::usage, fmt::format("{} samples have {} radiances, {} albedos and {} normals",
-                                                  field.samples.size(), field.radiance.size(),
-                                                  field.albedo.size(), field.normal.size()));
+        field.normal.size() != field.albedo.size() || (field.moves() && !fits(field.motion.size())))
+        throw Error(ErrorCode::usage,
+                    fmt::format("{} samples have {} radiances, {} albedos, {} normals and {} motions",
+                                field.samples.size(), field.radiance.size(), field.albedo.size(),
+                                field.normal.size(), field.motion.size()));
     FieldDefects sum;
     std::mutex mutex;
     parallelFor(0, field.samples.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
         FieldDefects local;
-        for (std::size_t i = first; i < last; ++i) repair(field.samples[i], field.radiance[i], local);
+        for (std::size_t i = first; i < last; ++i) {
+            glm::vec3 still(0), &motion = field.moves() ? field.motion[i] : still;
+            repair(field, field.samples[i], field.radiance[i], motion, local);
+        }
         const std::lock_guard lock(mutex);
         sum.add(local);
     });
+    dropZeroMotion(field);
     return sum;
 }
 

@@ -42,9 +42,10 @@ struct LightFieldSample {
 };
 static_assert(sizeof(LightFieldSample) == 32);
 
-/// m over the depth: how the homogeneous point (p, 1) moves over the shutter.
-inline glm::vec3 relativeMotion(const LightFieldSample& sample, glm::vec3 motion) {
-    return std::isinf(sample.w) ? motion : motion / sample.w;
+/// A sample's motion over its depth: (p', w') = ((p + (t' - t) q.xy) / r, r w) with r = 1 + (t' - t) q.z, and
+/// the same p' where w is infinite.
+inline glm::vec3 relativeMotion(const LightFieldSample& sample, glm::vec3 m) {
+    return std::isinf(sample.w) ? m : m / sample.w;
 }
 
 /// Samples, and planes of values beside them: one value per sample, or none at all.
@@ -85,6 +86,9 @@ struct LightField : SampleSet {
     std::size_t samplesOf(std::size_t pixel) const { return firstSample(pixel + 1) - firstSample(pixel); }
 };
 
+/// Makes a field whose motions are all 0 one where nothing moves.
+void dropZeroMotion(LightField& field);
+
 /// Samples per pixel: least, most, mean.
 struct SampleCounts {
     std::size_t min = 0, max = 0;
@@ -109,15 +113,22 @@ struct FieldDefects {
     std::uint64_t badDepth = 0;    ///< w <= 0 or NaN: the sample is disabled (slope = NaN, never binned)
     std::uint64_t outsideLens = 0; ///< u, v outside the unit disc or NaN: disabled
     std::uint64_t badPosition = 0; ///< x, y, t or slope not finite: disabled
+    std::uint64_t badMotion = 0;   ///< motion not finite, by itself or over w: disabled
+    /// Of the rest: within the shutter w' falls below w / 16, or passes zero. The depth's motion is limited
+    /// to w' >= w / 16, and the velocity on screen at the sample's own time, (m.xy - m.w p) / w, is kept.
+    std::uint64_t limitedMotion = 0;
     std::uint64_t total() const;
     void add(const FieldDefects& other);
 };
 
-/// Applies the rules of FieldDefects to one sample and its radiance, and counts.
-void repair(LightFieldSample& sample, glm::vec3& radiance, FieldDefects& defects);
+/// Applies the rules of FieldDefects to a sample of the field, its radiance and its motion (0 in a field
+/// where nothing moves), and counts. A sample that is disabled has motion 0.
+void repair(const LightField& field, LightFieldSample& sample, glm::vec3& radiance, glm::vec3& motion,
+            FieldDefects& defects);
 
-/// Applies the rules of FieldDefects to every sample, in place; reconstruction expects a sanitized field.
-/// Throws Error(usage) where planes of values are not as long as the samples.
+/// Applies the rules of FieldDefects to every sample, in place, and drops motions that are all 0;
+/// reconstruction expects a sanitized field. Throws Error(usage) where planes of values are not as long as
+/// the samples.
 FieldDefects sanitize(LightField& field);
 
 } // namespace slant

@@ -15,8 +15,8 @@ std::optional<double> focusDistance(const SlopeModel& model);
 /// for a pinhole, and for a distance that is not positive or makes blur infinite.
 SlopeModel focusedAt(const LightField& field, double distance);
 
-/// How many pixels beyond the samples of `bounds` blur can reach into the frame, seen through another lens.
-/// Borders of that width lack what enters from there. 0 if nothing is missing.
+/// How many pixels beyond the samples of `bounds` blur and motion can reach into the frame, seen through
+/// another lens. Borders of that width lack what enters from there. 0 if nothing is missing.
 int missingOverscanPx(const LightField& field, const LensView& view);
 
 } // namespace slant

@@ -35,15 +35,19 @@ public:
         }
         where_.line = 0;
         for (std::size_t i = 0; i < kEntries.size(); ++i)
-            if (!seen_[i]) throw badInput(where_, "the line '{} ...' is missing", kEntries[i].key);
+            if (!seen_[i] && kEntries[i].required)
+                throw badInput(where_, "the line '{} ...' is missing", kEntries[i].key);
         if (!columnsSeen_) throw badInput(where_, "the line '{}' is missing", kTlfrColumns);
         finish();
     }
+    /// Of a header that has been read.
+    TlfrMotion motion() const { return motion_; }
 
 private:
     struct Entry {
         std::string_view key;
         void (HeaderReader::*take)(std::string_view value);
+        bool required;
     };
 
     void line(std::string_view text) {
@@ -71,6 +75,7 @@ private:
     void takeMotion(std::string_view value) {
         if (value != "perspective" && value != "affine")
             throw badInput(where_, "motion model '{}' is neither perspective nor affine", value);
+        if (value == "affine") motion_ = TlfrMotion::affine;
     }
     void takeConstants(std::string_view value) {
         std::string text(value);
@@ -161,17 +166,18 @@ private:
     }
 
     static constexpr std::array<Entry, 7> kEntries = {
-        {{"Version", &HeaderReader::takeVersion},
-         {"Width", &HeaderReader::takeWidth},
-         {"Height", &HeaderReader::takeHeight},
-         {"Samples per pixel", &HeaderReader::takeSamples},
-         {"Motion model:", &HeaderReader::takeMotion},
-         {"CoC coefficients (coc radius = C0/w+C1):", &HeaderReader::takeConstants},
-         {"Encoding =", &HeaderReader::takeEncoding}}};
+        {{"Version", &HeaderReader::takeVersion, true},
+         {"Width", &HeaderReader::takeWidth, true},
+         {"Height", &HeaderReader::takeHeight, true},
+         {"Samples per pixel", &HeaderReader::takeSamples, true},
+         {"Motion model:", &HeaderReader::takeMotion, false},
+         {"CoC coefficients (coc radius = C0/w+C1):", &HeaderReader::takeConstants, true},
+         {"Encoding =", &HeaderReader::takeEncoding, true}}};
 
     FileLocation where_;
     FieldFile& file_;
     Monitor& monitor_;
+    TlfrMotion motion_ = TlfrMotion::perspective;
     std::array<bool, 7> seen_{};
     bool columnsSeen_ = false;
     glm::ivec2 origin_{0, 0};
@@ -214,15 +220,15 @@ FieldFile readTlfr(const std::string& bodyPath, const std::string& headerPath, M
     if (InputFile(headerPath).size() > kMaxHeaderBytes)
         throw badInput({headerPath}, "is longer than any TLFR header");
     FieldFile file;
-    HeaderReader(headerPath, file, monitor).read(readFile(headerPath));
+    HeaderReader header(headerPath, file, monitor);
+    header.read(readFile(headerPath));
     const bool text = file.format == FieldFormat::tlfrText;
     const std::uint64_t samples =
         std::uint64_t(file.field.bounds.area()) * std::uint64_t(file.field.samplesPerPixel);
     checkTlfrSize(body, samples, text);
     allocateSamples(file.field, false);
     monitor.beginStage("read", samples, "samples");
-    file.movingSamples =
-        text ? readTlfrText(body, file.field, monitor) : readTlfrBinary(body, file.field, monitor);
+    (text ? readTlfrText : readTlfrBinary)(body, file.field, header.motion(), monitor);
     monitor.endStage();
     return file;
 }

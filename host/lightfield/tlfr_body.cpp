@@ -2,13 +2,14 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "lightfield/field_file.h"
+#include "lightfield/motion.h"
 
 #include <array>
-#include <atomic>
 #include <bit>
 #include <charconv>
 #include <cmath>
-#include <cstring>
+#include <mutex>
 #include <string_view>
 
 namespace slant {
@@ -36,12 +37,40 @@ glm::vec3 radianceOf(const Record& r) {
 Record recordOf(const LightField& field, std::size_t i) {
     const LightFieldSample& s = field.samples[i];
     const glm::vec3& rgb = field.radiance[i];
-    return {s.x, s.y, 0, s.w, s.u, s.v, s.t, rgb.r, rgb.g, rgb.b, s.alpha, 0, 0, 0, 0, 0};
+    const glm::vec3 m = field.moves() ? field.motion[i] : glm::vec3(0);
+    return {s.x, s.y, 0, s.w, s.u, s.v, s.t, rgb.r, rgb.g, rgb.b, s.alpha, m.x, m.y, m.z, 0, 0};
 }
 
-bool moves(const Record& r) {
-    return r[11] != 0 || r[12] != 0 || r[13] != 0;
-}
+/// Puts records into a field. There is no room for motion until something moves.
+class RecordTaker {
+public:
+    RecordTaker(LightField& field, TlfrMotion model) : field_(field), model_(model) {}
+
+    /// Of different samples, from any thread.
+    void take(std::size_t i, const Record& r) {
+        const LightFieldSample& s = field_.samples[i] = sampleOf(r, field_.slopeModel);
+        field_.radiance[i] = radianceOf(r);
+        const glm::vec3 m(r[11], r[12], r[13]);
+        if (isPlusZero(m)) return;
+        std::call_once(moves_, [&] { allocateMotion(field_); });
+        field_.motion[i] = model_ == TlfrMotion::affine ? perspectiveMotion(s, m) : m;
+    }
+    void finish() { dropZeroMotion(field_); }
+
+private:
+    /// -0 is kept as it is.
+    static bool isPlusZero(const glm::vec3& m) {
+        return m == glm::vec3(0) && !std::signbit(m.x) && !std::signbit(m.y) && !std::signbit(m.z);
+    }
+    glm::vec3 perspectiveMotion(const LightFieldSample& s, const glm::vec3& affine) const {
+        const glm::vec2 p = pinholePosition(field_, s);
+        return {(std::isinf(s.w) ? 1 : s.w) * glm::vec2(affine) + affine.z * p, affine.z};
+    }
+
+    LightField& field_;
+    TlfrMotion model_;
+    std::once_flag moves_;
+};
 
 /// Lines of a text, and the place of them and their samples in the whole.
 struct Piece {
@@ -106,19 +135,12 @@ Record parseLine(std::string_view line, const FileLocation& where) {
     return record;
 }
 
-/// Parses the lines of a piece; returns how many samples move.
-std::uint64_t parsePiece(const Piece& piece, const std::string& path, LightField& field) {
-    std::uint64_t line = piece.firstLine, moving = 0;
-    std::uint64_t sample = piece.firstSample;
+void parsePiece(const Piece& piece, const std::string& path, RecordTaker& taker) {
+    std::uint64_t line = piece.firstLine, sample = piece.firstSample;
     forEachLine(piece.text, [&](std::string_view text) {
         ++line;
-        if (isBlank(text)) return;
-        const Record record = parseLine(text, {path, int(line), 0});
-        field.samples[sample] = sampleOf(record, field.slopeModel);
-        field.radiance[sample++] = radianceOf(record);
-        moving += moves(record);
+        if (!isBlank(text)) taker.take(sample++, parseLine(text, {path, int(line), 0}));
     });
-    return moving;
 }
 
 /// Places the pieces one after another; returns where the next one would come.
@@ -154,28 +176,22 @@ void checkTlfrSize(const InputFile& body, std::uint64_t samples, bool text) {
                        samples, text ? "at least " : "", samples * (text ? kShortestLine : sizeof(Record)));
 }
 
-std::uint64_t readTlfrBinary(const InputFile& body, LightField& field, Monitor& monitor) {
-    std::atomic<std::uint64_t> moving = 0;
+void readTlfrBinary(const InputFile& body, LightField& field, TlfrMotion model, Monitor& monitor) {
+    RecordTaker taker(field, model);
     parallelFor(0, field.samples.size(), kRecordsAtATime, [&](std::size_t first, std::size_t last) {
         std::vector<Record> records(std::min(kRecordsAtATime, last - first));
-        std::uint64_t movingHere = 0;
         for (std::size_t i = first; i < last; i += records.size()) {
             const std::size_t count = std::min(records.size(), last - i);
             body.read(i * sizeof(Record), records.data(), count * sizeof(Record));
-            for (std::size_t k = 0; k < count; ++k) {
-                field.samples[i + k] = sampleOf(records[k], field.slopeModel);
-                field.radiance[i + k] = radianceOf(records[k]);
-                movingHere += moves(records[k]);
-            }
+            for (std::size_t k = 0; k < count; ++k) taker.take(i + k, records[k]);
             monitor.advance(count);
         }
-        moving += movingHere;
     });
-    return moving;
+    taker.finish();
 }
 
-std::uint64_t readTlfrText(const InputFile& body, LightField& field, Monitor& monitor) {
-    std::atomic<std::uint64_t> moving = 0;
+void readTlfrText(const InputFile& body, LightField& field, TlfrMotion model, Monitor& monitor) {
+    RecordTaker taker(field, model);
     std::string text;
     Piece next;
     for (std::uint64_t offset = 0; offset < body.size();) {
@@ -192,7 +208,7 @@ std::uint64_t readTlfrText(const InputFile& body, LightField& field, Monitor& mo
             throw badInput({body.path()}, "holds more than the {} samples of its header",
                            field.samples.size());
         parallelFor(0, pieces.size(), 1, [&](std::size_t first, std::size_t last) {
-            for (std::size_t i = first; i < last; ++i) moving += parsePiece(pieces[i], body.path(), field);
+            for (std::size_t i = first; i < last; ++i) parsePiece(pieces[i], body.path(), taker);
         });
         monitor.advance(next.firstSample - before);
         offset += lines.size();
@@ -200,7 +216,7 @@ std::uint64_t readTlfrText(const InputFile& body, LightField& field, Monitor& mo
     if (next.firstSample != field.samples.size())
         throw badInput({body.path()}, "holds {} samples; its header has {}", next.firstSample,
                        field.samples.size());
-    return moving;
+    taker.finish();
 }
 
 void writeTlfrBinary(AtomicFile& body, const LightField& field, Monitor& monitor) {

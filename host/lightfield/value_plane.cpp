@@ -1,5 +1,8 @@
 #include "lightfield/value_plane.h"
 
+#include "lightfield/motion.h"
+
+#include <algorithm>
 #include <cmath>
 
 namespace slant {
@@ -7,6 +10,14 @@ namespace {
 
 glm::vec3 normalValue(const glm::vec3& n) {
     return std::isfinite(n.x + n.y + n.z) ? 0.5f * n + 0.5f : glm::vec3(0.5f);
+}
+
+glm::vec3 forwardValue(const LightField& field, std::size_t sample) {
+    if (!field.moves()) return glm::vec3(0);
+    const glm::vec2 moved = displacementPx(field, field.samples[sample], field.motion[sample]);
+    const glm::vec2 rightUp(moved.x, -moved.y);
+    const float k = std::max({0.f, -rightUp.x, -rightUp.y});
+    return std::isfinite(rightUp.x + rightUp.y) ? glm::vec3(rightUp + k, k) : glm::vec3(0);
 }
 
 glm::vec3 unchecked(const LightField& field, ValuePlane plane, std::size_t sample) {
@@ -23,6 +34,8 @@ glm::vec3 unchecked(const LightField& field, ValuePlane plane, std::size_t sampl
         return field.hasGuides() ? field.albedo[sample] : glm::vec3(0);
     case ValuePlane::normal:
         return normalValue(field.hasGuides() ? field.normal[sample] : glm::vec3(0));
+    case ValuePlane::forward:
+        return forwardValue(field, sample);
     }
     return glm::vec3(0);
 }

@@ -15,11 +15,11 @@ constexpr int kBatch = kFilmBlock;
 } // namespace
 
 BruteForce bruteForce(const Scene& scene, const Tracer& tracer, std::uint64_t seed, Monitor& monitor,
-                      bool auxiliary) {
+                      bool auxiliary, bool moving) {
     BruteForce result;
     FilmBuffer film(scene.film.crop, makeFilterTable(scene.filter));
-    const std::span<const AuxiliarySet> sets =
-        auxiliary ? auxiliarySets(true) : std::span<const AuxiliarySet>();
+    const std::vector<AuxiliarySet> sets =
+        auxiliary ? auxiliarySets(true, moving) : std::vector<AuxiliarySet>();
     std::vector<FilmBuffer> setFilms(sets.size(), film);
     LightField batch;
     batch.frame = scene.film.crop;
@@ -27,7 +27,8 @@ BruteForce bruteForce(const Scene& scene, const Tracer& tracer, std::uint64_t se
     monitor.beginStage("trace", batch.bounds.area() * std::uint64_t(scene.pixelSamples), "samples");
     for (int first = 0; first < scene.pixelSamples; first += kBatch) {
         batch.samplesPerPixel = std::min(kBatch, scene.pixelSamples - first);
-        batch.resize(batch.bounds.area() * std::size_t(batch.samplesPerPixel), auxiliary);
+        batch.resize(batch.bounds.area() * std::size_t(batch.samplesPerPixel), auxiliary,
+                     auxiliary && moving);
         tracer.trace(batch.bounds, first, batch.samplesPerPixel, scene.pixelSamples, seed, spansOf(batch),
                      monitor);
         result.defects.add(sanitize(batch));

@@ -18,8 +18,9 @@ struct BruteForce {
 
 /// The same pattern and pixel filter as method `box` with scene.pixelSamples samples, but any number of them
 /// in bounded memory. One stage "trace" of the monitor.
-/// With `auxiliary` the image has the channels of render/auxiliary.h, too.
+/// With `auxiliary` the image has the channels of render/auxiliary.h, too; those of motion if the scene is
+/// `moving`.
 BruteForce bruteForce(const Scene& scene, const Tracer& tracer, std::uint64_t seed, Monitor& monitor,
-                      bool auxiliary = false);
+                      bool auxiliary = false, bool moving = false);
 
 } // namespace slant

@@ -40,10 +40,10 @@ Image FieldPictures::colours(const LensView& view, Monitor& monitor, Reconstruct
 void FieldPictures::addAuxiliary(Image& image, const LensView& view, Monitor& monitor,
                                  ReconstructReport& report) {
     if (!field_.hasGuides())
-        monitor.warn("the samples have neither albedo nor normals: A and Z alone are written");
+        monitor.warn("the samples have neither albedo nor normals: these channels are left out");
     ReconstructReport ofSets;
     const Stopwatch watch;
-    for (const AuxiliarySet& set : auxiliarySets(field_.hasGuides()))
+    for (const AuxiliarySet& set : auxiliarySets(field_.hasGuides(), field_.moves()))
         addChannels(image, set, picture(view, set.plane, monitor, ofSets));
     StageStats& stage = report.stage("auxiliary", "outputs");
     stage.seconds = watch.seconds();

@@ -124,6 +124,13 @@ TEST_F(FieldErrors, deepHeaders) {
     DeepFile halves;
     halves.halfChannel = "raster.y";
     deepFails(halves, "'raster.y' must be of type float");
+    DeepFile halfMotion;
+    halfMotion.channels.insert({{"motion.x", 1}, {"motion.y", 1}, {"motion.w", 1}});
+    halfMotion.halfChannel = "motion.w";
+    deepFails(halfMotion, "'motion.w' must be of type float");
+    DeepFile incomplete;
+    incomplete.channels.insert({{"motion.x", 1}, {"motion.y", 1}});
+    deepFails(incomplete, "has no channel 'motion.w'");
     DeepFile constants;
     constants.header.erase("slant:c2");
     deepFails(constants, "neither the float attribute 'slant:c2' nor a channel 'slope'");
@@ -192,15 +199,82 @@ TEST_F(FieldErrors, theProgramSaysSoWithStatusThree) {
     EXPECT_EQ(dir_.entries(), 2u);
 }
 
-TEST_F(FieldErrors, movingFieldsAreRefused) {
-    std::string line = kLine;
-    line.replace(line.find("7,0,0,0"), 7, "7,0,2,0");
+TEST_F(FieldErrors, motionThatCannotBeIsCounted) {
+    const auto lineOf = [](const std::string& motion) {
+        std::string line = kLine;
+        return line.replace(line.find("7,0,0,0"), 7, "7," + motion);
+    };
     test::writeText(dir_.file("a.header"), kHeader);
-    test::writeText(dir_.file("a"), kLine + line);
-    const auto result = runSlant({"reconstruct", dir_.file("a"), "-o", dir_.file("out.exr"), "--quiet"});
-    EXPECT_EQ(result.status, 3);
-    EXPECT_THAT(result.err, HasSubstr("1 of its 2 samples move"));
-    EXPECT_THAT(runSlant({"info", dir_.file("a")}).out, HasSubstr("moving           1 samples"));
+    test::writeText(dir_.file("a"), lineOf("nan,0,0") + lineOf("4,0,-9")); // from w = 2 at t = 0.3
+    const std::string text = runSlant({"info", dir_.file("a")}).out;
+    EXPECT_THAT(text, HasSubstr("moving           1 samples, by up to "));
+    EXPECT_THAT(text, HasSubstr("1 of bad motion, 1 that come too near"));
+    const std::string json = runSlant({"info", dir_.file("a"), "--json"}).out;
+    for (const char* part :
+         {"\"moving\": 1,", "\"largestMotionPx\": ", "\"badMotion\": 1", "\"limitedMotion\": 1"})
+        EXPECT_THAT(json, HasSubstr(part));
+    const auto result = runSlant({"reconstruct", dir_.file("a"), "-o", dir_.file("out.exr"), "--device",
+                                  "cpu", "--out-spp", "1", "--quiet"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("1 of bad motion left out; 1 would come too near"));
+}
+
+TEST_F(FieldErrors, timesThatCannotBe) {
+    const FieldFile file = test::richField();
+    SilentMonitor monitor;
+    writeField(dir_.file("a.exr"), file.field, file.details, monitor);
+    const auto reconstruct = [&](std::vector<std::string> more) {
+        std::vector<std::string> words = {
+            "reconstruct", dir_.file("a.exr"), "-o", dir_.file("out.exr"), "--device", "cpu", "--out-spp",
+            "1",           "--quiet"};
+        words.insert(words.end(), more.begin(), more.end());
+        return runSlant(words);
+    };
+    for (const auto& [words, part] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+             {{"--shutter", "0.5,0.5"}, "'0.5,0.5' is not A,B with 0 <= A < B <= 1"},
+             {{"--shutter", "0.6,0.5"}, "--shutter"},
+             {{"--shutter", "-0.1,0.5"}, "--shutter"},
+             {{"--shutter", "0,1.5"}, "--shutter"},
+             {{"--shutter", "nan,1"}, "--shutter"},
+             {{"--shutter", "0.5"}, "--shutter"},
+             {{"--shutter", "0,0.5,1"}, "--shutter"},
+             {{"--freeze", "1.5"}, "--freeze: '1.5' is not a number from 0 to 1"},
+             {{"--freeze", "-1"}, "--freeze"},
+             {{"--shutter", "0,0.5", "--freeze", "0"}, "--freeze"},
+             {{"--freeze", "0", "--freeze-from", "0", "--freeze-to", "1", "--frames", "2"}, "--freeze"},
+             {{"--freeze-from", "0", "--frames", "2"}, "--freeze-to"},
+             {{"--freeze-from", "0", "--freeze-to", "1"}, "--freeze-from needs --frames"},
+             {{"--focus-from", "1", "--focus-to", "2"}, "--focus-from needs --frames"},
+             {{"--frames", "3"}, "--frames needs --focus-from or --freeze-from"},
+             {{"--freeze", "0", "--method", "box"}, "method box takes the traced shutter only"},
+             {{"--shutter", "0,0.5", "--method", "window"}, "method window looks for samples"},
+             {{"--freeze-from", "0", "--freeze-to", "1", "--frames", "2", "--method", "box"},
+              "method box"}}) {
+        const test::ProgramResult result = reconstruct(words);
+        EXPECT_EQ(result.status, 2) << result.err;
+        EXPECT_EQ(result.errorLines(), 1) << result.err;
+        EXPECT_THAT(result.err, HasSubstr(part));
+    }
+    for (const char* method : {"box", "window"})
+        EXPECT_EQ(reconstruct({"--shutter", "0,1", "--method", method}).status, 0) << "as traced";
+    EXPECT_THAT(reconstruct({"--freeze", "0.5"}).err, HasSubstr("nothing moves in this field"));
+}
+
+TEST_F(FieldErrors, sequencesOfInstantsAreNumbered) {
+    const FieldFile file = test::richMovingField(1);
+    SilentMonitor monitor;
+    writeField(dir_.file("a.exr"), file.field, file.details, monitor);
+    const auto result = runSlant({"reconstruct", dir_.file("a.exr"), "-o", dir_.file("slow.exr"), "--device",
+                                  "cpu", "--out-spp", "1", "--quiet", "--freeze-from", "0.25", "--freeze-to",
+                                  "0.75", "--focus-from", "2", "--focus-to", "4", "--frames", "3"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    for (const auto& [name, time] :
+         {std::pair("slow-0001.exr", 0.25f), {"slow-0002.exr", 0.5f}, {"slow-0003.exr", 0.75f}}) {
+        const Metadata metadata = readExr(dir_.file(name)).metadata;
+        EXPECT_EQ(std::get<float>(metadata.at("slant:shutterOpen")), time);
+        EXPECT_EQ(std::get<float>(metadata.at("slant:shutterClose")), time);
+    }
+    EXPECT_FALSE(std::filesystem::exists(dir_.file("slow.exr")));
 }
 
 TEST_F(FieldErrors, wrongNamesAreUsageErrorsBeforeTracing) {

@@ -11,11 +11,12 @@ namespace slant {
 namespace {
 
 /// A field small enough to go through reconstruction, as bytes of a fuzz target.
-std::string bytesOf(const std::string& extension) {
+std::string bytesOf(const std::string& extension, bool moving) {
     FieldFile file;
     file.field = synthetic::sample(synthetic::discsOverChecks(), {0, 0, 5, 4}, 2, 2, 3);
     file.field.slopeModel = {-8, 3};
     for (LightFieldSample& s : file.field.samples) s.slope = file.field.slopeModel(s.w);
+    if (moving) file.field.motion.assign(file.field.samples.size(), {3, -2, 0.5f});
     file.details = {file.field.frame, PixelFilter(), 0.5f, 0, "", "by hand", 3};
     SilentMonitor monitor;
     const test::TempDir dir;
@@ -29,9 +30,11 @@ TEST(FieldMutations, neverDoWorseThanAnError) {
     for (const auto& [extension, target] :
          {std::pair(".exr", &test::fuzzDeepExr), {".bin", &test::fuzzTlfr}, {".txt", &test::fuzzTlfr}}) {
         SCOPED_TRACE(extension);
-        const auto [read, refused] = test::survive(target, bytesOf(extension), 400);
-        EXPECT_GT(read, 20); // the damage reaches more than the first check
-        EXPECT_GT(refused, 50);
+        for (const bool moving : {false, true}) {
+            const auto [read, refused] = test::survive(target, bytesOf(extension, moving), 300);
+            EXPECT_GT(read, 20); // the damage reaches more than the first check
+            EXPECT_GT(refused, 50);
+        }
     }
 }
 

@@ -35,6 +35,21 @@ inline FieldFile richField(int spp = 3) {
     return file;
 }
 
+/// The same with motion, garbage in some samples here, too.
+inline FieldFile richMovingField(int spp = 3) {
+    FieldFile file = richField(spp);
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+    const std::vector<float> rubbish = {kInfinity, kNaN, -0.f, -1e30f, 3e38f, 1e-42f, -7};
+    synthetic::Random random(8);
+    for (std::size_t i = 0; i < file.field.samples.size(); ++i) {
+        file.field.motion.emplace_back(9 * random.uniform() - 3, random.uniform() / 3, random.uniform() / 8);
+        if (i % 5 == 0) file.field.motion[i] = glm::vec3(-0.f, 0, 0);
+        if (i % 7 == 0) file.field.motion[i][int(i % 3)] = rubbish[i / 7 % rubbish.size()];
+    }
+    return file;
+}
+
 /// Bits, so that NaN equals itself.
 inline bool sameBits(const LightField& a, const LightField& b) {
     const auto same = [](const auto& left, const auto& right) {
@@ -42,7 +57,7 @@ inline bool sameBits(const LightField& a, const LightField& b) {
                (left.empty() || std::memcmp(left.data(), right.data(), left.size() * sizeof(left[0])) == 0);
     };
     return same(a.samples, b.samples) && same(a.radiance, b.radiance) && same(a.albedo, b.albedo) &&
-           same(a.normal, b.normal);
+           same(a.normal, b.normal) && same(a.motion, b.motion);
 }
 
 } // namespace slant::test

@@ -1,4 +1,5 @@
 // Light field files: what is written is read again to the bit, and what others write is understood.
+#include "lightfield/motion.h"
 #include "lightfield/summary.h"
 #include "support/deep_file.h"
 #include "support/expect_error.h"
@@ -42,7 +43,6 @@ void expectSame(const FieldFile& got, const FieldFile& expected) {
     EXPECT_TRUE(test::sameBits(got.field, expected.field));
     EXPECT_EQ(got.details.film, expected.details.film);
     EXPECT_EQ(metadataOf(got.field, got.details), metadataOf(expected.field, expected.details));
-    EXPECT_EQ(got.movingSamples, 0u);
 }
 
 TEST_F(FieldFiles, everyFormatReadsWhatItWrote) {
@@ -58,6 +58,29 @@ TEST_F(FieldFiles, everyFormatReadsWhatItWrote) {
             expectSame(got, file);
             EXPECT_THAT(monitor_.warnings, testing::IsEmpty());
         }
+}
+
+TEST_F(FieldFiles, everyFormatKeepsMotionToTheBit) {
+    const FieldFile file = test::richMovingField();
+    for (const char* name : {"a.exr", "a.bin", "a.txt"}) {
+        SCOPED_TRACE(name);
+        write(name, file);
+        const FieldFile got = read(name);
+        EXPECT_TRUE(got.field.moves());
+        expectSame(got, file);
+        EXPECT_THAT(monitor_.warnings, testing::IsEmpty());
+    }
+}
+
+TEST_F(FieldFiles, motionOfZeroIsNone) {
+    const FieldFile still = richField();
+    FieldFile zero = still;
+    zero.field.motion.assign(zero.field.samples.size(), glm::vec3(0, -0.f, 0));
+    for (const char* name : {"a.exr", "a.bin", "a.txt"}) {
+        SCOPED_TRACE(name);
+        write(name, zero);
+        expectSame(read(name), still);
+    }
 }
 
 TEST_F(FieldFiles, everyShapeOfAperture) {
@@ -202,7 +225,11 @@ TEST_F(FieldFiles, tlfrReadsItsHeaderByEitherNameAndInEverySpelling) {
                 EXPECT_EQ(file.field.frame, file.field.bounds);
                 EXPECT_EQ(file.details.film, file.field.bounds);
                 EXPECT_FALSE(file.details.filter);
-                EXPECT_EQ(file.movingSamples, 1u);
+                ASSERT_TRUE(file.field.moves());
+                EXPECT_EQ(file.field.motion[0], glm::vec3(0));
+                // Affine: at w = -1, from (1.75, 0.125).
+                EXPECT_EQ(file.field.motion[3], model == std::string("affine") ? glm::vec3(-4.5f, -0.25f, -2)
+                                                                               : glm::vec3(1, 0, -2));
                 const LightFieldSample &s = file.field.samples[0], &far = file.field.samples[2];
                 EXPECT_EQ(s.x, 0.25f);
                 EXPECT_EQ(s.v, -0.2f);
@@ -216,6 +243,43 @@ TEST_F(FieldFiles, tlfrReadsItsHeaderByEitherNameAndInEverySpelling) {
                 EXPECT_TRUE(std::isnan(file.field.radiance[3].r));
             }
         }
+}
+
+/// The newest programs of the method's authors leave the line out.
+TEST_F(FieldFiles, withoutAMotionModelTlfrMeansPerspective) {
+    const FieldFile file = test::richMovingField();
+    write("a.bin", file);
+    std::string header = test::readText(dir_.file("a.bin.header"));
+    const std::string line = "Motion model: perspective\n";
+    header.erase(header.find(line), line.size());
+    test::writeText(dir_.file("a.bin.header"), header);
+    expectSame(read("a.bin"), file);
+}
+
+/// What the samples of an affine file do at their own times: place, velocity and change of depth.
+TEST_F(FieldFiles, affineMotionIsThatOfTheSamplesOwnTime) {
+    FieldFile file = richField(1);
+    synthetic::Random random(5);
+    for (LightFieldSample& s : file.field.samples) {
+        s.w = random.uniform() < 0.1f ? INFINITY : 1 + 5 * random.uniform();
+        s.slope = file.field.slopeModel(s.w);
+        file.field.motion.emplace_back(30 * random.uniform(), -8 * random.uniform(), random.uniform());
+    }
+    write("a.bin", file);
+    std::string header = test::readText(dir_.file("a.bin.header"));
+    header.replace(header.find("perspective"), 11, "affine");
+    test::writeText(dir_.file("a.bin.header"), header);
+    const LightField got = read("a.bin").field;
+    for (std::size_t i = 0; i < got.samples.size(); ++i) {
+        const LightFieldSample& s = got.samples[i];
+        const glm::vec3 affine = file.field.motion[i], q = relativeMotion(s, got.motion[i]);
+        const glm::vec2 p = pinholePosition(got, s);
+        constexpr float kStep = 1.f / 1024;
+        const glm::vec2 velocity = (moved(p, q, kStep).position - moved(p, q, -kStep).position) / (2 * kStep);
+        EXPECT_NEAR(velocity.x, affine.x, 0.05) << i;
+        EXPECT_NEAR(velocity.y, affine.y, 0.05) << i;
+        EXPECT_EQ(got.motion[i].z, affine.z);
+    }
 }
 
 TEST_F(FieldFiles, linesThatTlfrDoesNotKnowAreToldOf) {
@@ -255,7 +319,7 @@ TEST_F(FieldFiles, windowsOfDeepFilesAreFrameAndOverscan) {
     EXPECT_EQ(got.field.bounds, (Rect{-3, 2, 12, 10}));
     EXPECT_EQ(got.details.film, (Rect{0, 0, 10, 8}));
     EXPECT_EQ(got.field.frame, (Rect{0, 2, 10, 8}));
-    EXPECT_EQ(got.movingSamples, 15u * 8 * 2);
+    EXPECT_EQ(got.field.motion, std::vector<glm::vec3>(std::size_t(15 * 8 * 2), glm::vec3(0, 0, 1)));
     EXPECT_EQ(got.field.samples[0].x, -2.5f);
     EXPECT_EQ(got.field.samples[0].y, 2.5f);
 }
@@ -274,6 +338,7 @@ TEST_F(FieldFiles, summaryCountsWhatSanitizeMeets) {
     EXPECT_GT(met.badDepth, 0u);
     EXPECT_EQ(summary.defects.badDepth, met.badDepth);
     EXPECT_EQ(summary.defects.total(), met.total());
+    EXPECT_EQ(summary.moving, 0u);
 }
 
 } // namespace
