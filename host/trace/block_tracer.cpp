@@ -49,7 +49,7 @@ void BlockTracer::generate(int sample) {
             LightFieldSample& s = samples_[lane];
             s.x = std::min(float(x(i)) + point.x, lastX_[lane]);
             s.y = std::min(float(y(i)) + point.y, lastY_[lane]);
-            const CameraSample seen = camera.sample({s.x, s.y}, {point.a, point.b});
+            const CameraSample seen = camera.sample({s.x, s.y}, {point.a, point.b}, point.t);
             s.u = seen.lens.x;
             s.v = seen.lens.y;
             s.t = point.t;

@@ -33,11 +33,15 @@ std::pair<double, double> Tracer::depthRange() const {
         const glm::vec2 part((float(i % kDepthProbes) + 0.5f) / kDepthProbes,
                              (float(i / kDepthProbes) + 0.5f) / kDepthProbes);
         const glm::vec2 raster = part * glm::vec2(scene_.film.xResolution, scene_.film.yResolution);
+        // Every row and every column of probes sees all of the shutter.
+        const float time = (float((i + i / kDepthProbes) % kDepthProbes) + 0.5f) / kDepthProbes;
         const CameraSample sample = camera_.visit([&](const auto& camera) {
-            return camera.sample(raster, {0.5f, 0.5f});
+            return camera.sample(raster, {0.5f, 0.5f}, time);
         });
         SurfaceHit hit;
-        if (sample.weight > 0) geometry_.intersect({sample.ray.origin, sample.ray.direction}, hit);
+        if (sample.weight > 0)
+            geometry_.intersect(
+                {sample.ray.origin, sample.ray.direction, std::numeric_limits<float>::infinity(), time}, hit);
         depths.push_back(hit.t);
     }
     std::sort(depths.begin(), depths.end());
