@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 namespace slant {
 namespace {
@@ -25,7 +26,8 @@ constexpr double kOutlierShare = 0.02;
 } // namespace
 
 Tracer::Tracer(const Scene& scene, Monitor& monitor)
-    : scene_(scene), camera_(scene), geometry_(scene, monitor), shading_(scene) {}
+    : scene_(scene), camera_(scene), geometry_(scene, monitor), shading_(scene), motion_(camera_, geometry_) {
+}
 
 std::pair<double, double> Tracer::depthRange() const {
     std::vector<float> depths;
@@ -50,7 +52,7 @@ std::pair<double, double> Tracer::depthRange() const {
 }
 
 void Tracer::trace(Rect pixels, int firstSample, int count, int samplesPerPixel, std::uint64_t seed,
-                   const SampleSpans& out, Monitor& monitor) const {
+                   const SampleSpans& out, Monitor& monitor, MotionMisses* misses) const {
     Pattern pattern(samplesPerPixel, seed);
     const std::size_t samples = pixels.area() * std::size_t(std::max(count, 0));
     const auto fits = [&](std::span<const glm::vec3> plane, bool optional) {
@@ -61,7 +63,8 @@ void Tracer::trace(Rect pixels, int firstSample, int count, int samplesPerPixel,
         out.normal.size() != out.albedo.size() || !fits(out.motion, true))
         throw Error(ErrorCode::usage, "the buffers do not fit the samples to trace");
     if (samples == 0) return;
-    TraceJob job{scene_, camera_, geometry_, shading_, pattern, pixels, firstSample, count, out};
+    TraceJob job{scene_, camera_, geometry_, shading_, pattern, pixels, firstSample, count, out, motion_};
+    std::mutex mutex;
     const int column0 = floorDivide(pixels.x0, kBlockSize),
               column1 = floorDivide(pixels.x1 - 1, kBlockSize) + 1;
     const int row0 = floorDivide(pixels.y0, kBlockSize), row1 = floorDivide(pixels.y1 - 1, kBlockSize) + 1;
@@ -72,6 +75,10 @@ void Tracer::trace(Rect pixels, int firstSample, int count, int samplesPerPixel,
                       y = (row0 + int(i / columns)) * kBlockSize;
             BlockTracer block(job, x, y);
             for (int sample = firstSample; sample < firstSample + count; ++sample) block.trace(sample);
+            if (misses) {
+                const std::lock_guard lock(mutex);
+                misses->add(block.misses());
+            }
             Rect covered = Rect{x, y, x + kBlockSize, y + kBlockSize}.intersect(pixels);
             monitor.advance(covered.area() * std::uint64_t(count));
         }
