@@ -3,8 +3,6 @@
 #include "trace/mesh_surface.h"
 #include "trace/quadric_surface.h"
 
-#include <algorithm>
-
 namespace slant {
 namespace {
 
@@ -132,11 +130,9 @@ void BodyGroup::add(const Shape& shape, const std::vector<Mesh>& meshes, int emi
         return;
     }
     for (const glm::dmat4& matrix : shape.worldFromObject.at) requireInvertible(matrix, shape.location);
-    auto body = std::find_if(moving.begin(), moving.end(), [&](const MovingBody& other) {
-        return sameMotion(other.placement, shape.worldFromObject);
-    });
-    if (body == moving.end()) body = moving.insert(body, MovingBody{Body(device), shape.worldFromObject});
-    body->body.add(unplaced(shape), meshes, emitter, device);
+    if (moving.empty() || !sameMotion(moving.back().placement, shape.worldFromObject))
+        moving.push_back({Body(device), shape.worldFromObject});
+    moving.back().body.add(unplaced(shape), meshes, emitter, device);
 }
 
 } // namespace slant

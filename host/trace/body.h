@@ -1,5 +1,5 @@
 // Bodies: shapes that keep together, the unit that Embree searches. The world's own shapes that stand still
-// are one, those of an object definition another; shapes that move are a body for each way of moving.
+// are one, those of an object definition another; shapes in a row that move alike are a body each.
 #pragma once
 #include "scene/scene.h"
 #include "trace/embree_objects.h"

@@ -12,7 +12,12 @@ struct Geometry::Impl {
     embree::DevicePointer device;
     BodyGroup world;
     std::deque<BodyGroup> objects;
-    std::deque<Instance> instances; ///< geomID = world.still.entries.size() + index
+    struct Placed {
+        Instance instance;
+        int mover; ///< index in `movers`; -1: it keeps still
+    };
+    std::deque<Placed> instances; ///< geomID = world.still.entries.size() + index
+    std::vector<const Placement*> movers;
 
     Impl(const Scene& scene, Monitor& monitor);
     void place(const Body& body, const Placement& placement);
@@ -61,7 +66,11 @@ void Geometry::Impl::place(const ObjectInstance& instance) {
 
 void Geometry::Impl::place(const Body& body, const Placement& placement) {
     if (body.entries.empty() && placement.moves()) return; // no box that could move
-    const Instance& instance = instances.emplace_back(body, placement);
+    const Instance& instance = instances.emplace_back(Placed{Instance(body, placement), -1}).instance;
+    if (instance.motion()) {
+        instances.back().mover = int(movers.size());
+        movers.push_back(instance.motion());
+    }
     embree::attach(device.get(), world.still.scene.get(), instance.makeGeometry(device.get()).get(),
                    world.still.entries.size() + instances.size() - 1);
 }
@@ -83,9 +92,8 @@ void Geometry::Impl::resolve(const Ray& ray, unsigned instanceId, unsigned geome
         fill(world.still, exact);
         return;
     }
-    const std::size_t index = instanceId - world.still.entries.size();
-    const Instance& instance = instances[index];
-    if (instance.moves()) hit.instance = int(index);
+    const auto& [instance, mover] = instances[instanceId - world.still.entries.size()];
+    hit.mover = mover;
     instance.withFrame(ray.time, [&](const PlacedFrame& frame) {
         fill(instance.body(), frame.toBody(exact));
         frame.toWorld(hit);
@@ -177,17 +185,12 @@ Box Geometry::bounds() const {
     return impl_->world.still.bounds();
 }
 
-bool Geometry::moves() const {
-    return std::any_of(impl_->instances.begin(), impl_->instances.end(),
-                       [](const Instance& instance) { return instance.moves(); });
+std::size_t Geometry::moverCount() const {
+    return impl_->movers.size();
 }
 
-std::size_t Geometry::instanceCount() const {
-    return impl_->instances.size();
-}
-
-const Placement& Geometry::placement(std::size_t instance) const {
-    return impl_->instances[instance].placement();
+const Placement& Geometry::placement(int mover) const {
+    return *impl_->movers[std::size_t(mover)];
 }
 
 } // namespace slant

@@ -37,11 +37,9 @@ public:
     /// World bounds of everything, wherever it moves; empty for an empty scene.
     Box bounds() const;
 
-    /// Whether anything moves.
-    bool moves() const;
-    /// Of the instances that SurfaceHit::instance numbers; not all of them move.
-    std::size_t instanceCount() const;
-    const Placement& placement(std::size_t instance) const;
+    /// What moves: SurfaceHit::mover is one of so many numbers.
+    std::size_t moverCount() const;
+    const Placement& placement(int mover) const;
 
 private:
     struct Impl;

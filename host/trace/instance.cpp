@@ -149,16 +149,18 @@ void PlacedFrame::toWorld(SurfaceHit& hit) const {
 }
 
 Instance::Instance(const Body& body, const Placement& placement)
-    : body_(&body), placement_(placement), still_(checked(placement.at(0))) {
+    : body_(&body), still_(checked(placement.at(0))) {
     checked(placement.at(1));
-    if (moves()) stepBounds_ = movingBounds(placement_, body.bounds());
+    if (placement.moves())
+        moving_ = std::make_unique<Moving>(Moving{placement, movingBounds(placement, body.bounds())});
 }
 
 embree::GeometryPointer Instance::makeGeometry(RTCDevice device) const {
-    if (moves()) return makeMoving(device);
+    if (moving_) return makeMoving(device);
     auto geometry = embree::newGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
     rtcSetGeometryInstancedScene(geometry.get(), body_->scene.get());
-    glm::mat4 single(placement_.at(0));
+    glm::mat4 single(glm::mat3(still_.linear));
+    single[3] = glm::vec4(glm::vec3(still_.offset), 1);
     rtcSetGeometryTransform(geometry.get(), 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &single[0][0]);
     return geometry;
 }
@@ -166,7 +168,7 @@ embree::GeometryPointer Instance::makeGeometry(RTCDevice device) const {
 embree::GeometryPointer Instance::makeMoving(RTCDevice device) const {
     auto geometry = embree::newGeometry(device, RTC_GEOMETRY_TYPE_USER);
     rtcSetGeometryUserPrimitiveCount(geometry.get(), 1);
-    rtcSetGeometryTimeStepCount(geometry.get(), unsigned(stepBounds_.size()));
+    rtcSetGeometryTimeStepCount(geometry.get(), unsigned(moving_->stepBounds.size()));
     rtcSetGeometryUserData(geometry.get(), const_cast<Instance*>(this));
     rtcSetGeometryBoundsFunction(geometry.get(), boundsOfMoving, nullptr);
     rtcSetGeometryIntersectFunction(geometry.get(), intersectMoving);

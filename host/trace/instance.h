@@ -8,7 +8,8 @@
 #include "scene/animated_transform.h"
 #include "trace/body.h"
 
-#include <optional>
+#include <memory>
+#include <vector>
 
 namespace slant {
 
@@ -44,28 +45,31 @@ public:
     Instance(const Body& body, const Placement& placement);
 
     const Body& body() const { return *body_; }
-    bool moves() const { return placement_.moves(); }
-    const Placement& placement() const { return placement_; }
+    /// Null if it keeps still.
+    const Placement* motion() const { return moving_ ? &moving_->placement : nullptr; }
     /// Calls visit(frame) with the frame at `time`, computing it only if it moves.
     template <typename Visit>
     void withFrame(float time, Visit&& visit) const {
-        if (moves())
-            visit(PlacedFrame(placement_.at(double(time))));
+        if (moving_)
+            visit(PlacedFrame(moving_->placement.at(double(time))));
         else
             visit(still_);
     }
     /// For Embree; refers to this, and the number that it gets when it is attached is its instID.
     embree::GeometryPointer makeGeometry(RTCDevice device) const;
     /// World boxes at equally many times of the shutter; where the body is between them lies between them.
-    const std::vector<Box>& stepBounds() const { return stepBounds_; }
+    const std::vector<Box>& stepBounds() const { return moving_->stepBounds; }
 
 private:
+    struct Moving {
+        Placement placement;
+        std::vector<Box> stepBounds;
+    };
     embree::GeometryPointer makeMoving(RTCDevice device) const;
 
     const Body* body_;
-    Placement placement_;
-    PlacedFrame still_;           ///< at time 0
-    std::vector<Box> stepBounds_; ///< of a moving body
+    PlacedFrame still_; ///< at time 0
+    std::unique_ptr<Moving> moving_;
 };
 
 } // namespace slant

@@ -53,41 +53,39 @@ struct Path {
 SampleMotion::SampleMotion(const Camera& camera, const Geometry& geometry)
     : camera_(camera), geometry_(geometry), cameraMoves_(camera.moves()) {
     if (!any()) return;
-    for (int i = -1; i < int(geometry.instanceCount()); ++i) tables_.push_back(tableOf(i));
+    for (int i = -1; i < int(geometry.moverCount()); ++i) tables_.push_back(tableOf(i));
 }
 
-glm::dmat4x3 SampleMotion::pinholeFromBody(int instance, double time) const {
+glm::dmat4x3 SampleMotion::pinholeFromBody(int mover, double time) const {
     const glm::dmat4x3 pinholeFromWorld = camera_.pinholeFromWorld(time);
-    return instance < 0 ? pinholeFromWorld
-                        : pinholeFromWorld * geometry_.placement(std::size_t(instance)).at(time);
+    return mover < 0 ? pinholeFromWorld : pinholeFromWorld * geometry_.placement(mover).at(time);
 }
 
-SampleMotion::Table SampleMotion::tableOf(int instance) const {
+SampleMotion::Table SampleMotion::tableOf(int mover) const {
     Table table;
     for (std::size_t k = 0; k < kTimes; ++k)
-        table[k] = pinholeFromBody(instance, double(k) / double(kTimes - 1));
+        table[k] = pinholeFromBody(mover, double(k) / double(kTimes - 1));
     return table;
 }
 
 FittedMotion SampleMotion::of(const SurfaceHit& hit, const Ray& ray) const {
-    if (hit.instance < 0 && !cameraMoves_) return {};
+    if (hit.mover < 0 && !cameraMoves_) return {};
     const double time = double(ray.time);
     // Where nothing was hit, a point at depth 1 in the same direction, of which the place of the eye is no
     // part.
     glm::dvec4 point = hit.hit() ? glm::dvec4(hit.position, 1) : glm::dvec4(ray.direction, 0);
-    if (hit.instance >= 0)
-        point = affineInverse(geometry_.placement(std::size_t(hit.instance)).at(time)) * point;
+    if (hit.mover >= 0) point = affineInverse(geometry_.placement(hit.mover).at(time)) * point;
 
     Path<kTimes> path;
-    path.from = pinholeFromBody(hit.instance, time) * point;
-    const Table& table = tables_[std::size_t(hit.instance + 1)];
+    path.from = pinholeFromBody(hit.mover, time) * point;
+    const Table& table = tables_[std::size_t(hit.mover + 1)];
     for (std::size_t k = 0; k < kTimes; ++k) {
         path.after[k] = double(k) / double(kTimes - 1) - time;
         path.change[k] = table[k] * point - path.from;
     }
     if (const auto motion = path.fit()) return {glm::vec3(*motion), float(path.missOf(*motion))};
     const double step = time < 0.5 ? kTangentStep : -kTangentStep;
-    return {glm::vec3((pinholeFromBody(hit.instance, time + step) * point - path.from) / step), 0};
+    return {glm::vec3((pinholeFromBody(hit.mover, time + step) * point - path.from) / step), 0};
 }
 
 void MotionMisses::add(float missPx) {

@@ -23,7 +23,7 @@ public:
     SampleMotion(const Camera& camera, const Geometry& geometry);
 
     /// Whether anything moves; what does not, has a motion of exactly 0.
-    bool any() const { return cameraMoves_ || geometry_.moves(); }
+    bool any() const { return cameraMoves_ || geometry_.moverCount() > 0; }
     /// Of what a camera ray met.
     FittedMotion of(const SurfaceHit& hit, const Ray& ray) const;
 
@@ -32,14 +32,14 @@ private:
     static constexpr std::size_t kTimes = 9;
     using Table = std::array<glm::dmat4x3, kTimes>;
 
-    /// Homogeneous raster position of points of an instance (-1: of what keeps still).
-    glm::dmat4x3 pinholeFromBody(int instance, double time) const;
-    Table tableOf(int instance) const;
+    /// Homogeneous raster position of points of a mover (-1: of what keeps still).
+    glm::dmat4x3 pinholeFromBody(int mover, double time) const;
+    Table tableOf(int mover) const;
 
     const Camera& camera_;
     const Geometry& geometry_;
     bool cameraMoves_;
-    std::vector<Table> tables_; ///< of what keeps still, then of each instance
+    std::vector<Table> tables_; ///< of what keeps still, then of each mover
 };
 
 /// The misses of many samples.

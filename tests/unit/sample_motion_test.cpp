@@ -174,16 +174,16 @@ TEST(SampleMotion, ofTurnsIsTheNearestLineAndKnowsWhatItMisses) {
         if (s.alpha > 0) {
             hit.materialIndex = 0;
             hit.position = glm::vec3(world);
-            hit.instance = glm::length(glm::dvec3(world) - glm::dvec3(0.2, 0.1, 3)) < 0.601 ? -1 : 0;
+            hit.mover = glm::length(glm::dvec3(world) - glm::dvec3(0.2, 0.1, 3)) < 0.601 ? -1 : 0;
         }
         const FittedMotion fitted = motion.of(hit, ray);
         EXPECT_LT(glm::length(fitted.motion - set.motion[i]), 1e-3f * (1 + glm::length(fitted.motion)));
         sky += s.alpha == 0;
-        turning += hit.instance == 0;
+        turning += hit.mover == 0;
 
         const auto truth = [&](double time) {
             glm::dvec4 there = world;
-            if (hit.instance == 0) there = wheel.at(time) * affineInverse(wheel.at(own)) * world;
+            if (hit.mover == 0) there = wheel.at(time) * affineInverse(wheel.at(own)) * world;
             return glm::dvec3(affineInverse(camera.at(time)) * there);
         };
         const auto cost = [&](glm::vec3 m) { // of the fit
