@@ -120,10 +120,10 @@ CameraSample CompoundLens::inWorld(const LensRay& ray, glm::vec2 lens, float wei
     const glm::dvec3 direction = ray.direction / ray.direction.z;
     const glm::dvec3 origin = ray.origin + (depthOrigin_ - ray.origin.z) * direction;
     const auto world = [&](glm::dvec3 v) { return axes.right * v.x + axes.down * v.y; };
-    return {{glm::vec3(axes.centre + world(origin)),
-             glm::vec3((axes.forward + world(direction)) * kMillimetres)},
-            lens,
-            weight};
+    return {
+        {glm::vec3(axes.centre + world(origin)), glm::vec3((axes.forward + world(direction)) * kMillimetres)},
+        lens,
+        weight};
 }
 
 CameraSample CompoundLens::sample(glm::vec2 raster, glm::vec2 square, float time) const {

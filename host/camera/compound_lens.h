@@ -43,7 +43,8 @@ public:
     /// Throws Error(badInput) for a lens that forms no image or cannot focus as asked.
     CompoundLens(const RealisticCamera& camera, const MovingTransform& worldFromCamera, const Film& film);
 
-    /// `raster` in pixels, y downwards, on the film or beside it; `square` in [0, 1)^2; `time` of the shutter.
+    /// `raster` in pixels, y downwards, on the film or beside it; `square` in [0, 1)^2; `time` of the
+    /// shutter.
     CameraSample sample(glm::vec2 raster, glm::vec2 square, float time = 0) const;
 
     /// Slope of trajectories on the scene's side: c1 / depth + c2.

@@ -20,8 +20,7 @@ public:
     /// `raster` in pixels, y downwards; `lens` in the unit disc, v downwards (to the right and down, like the
     /// raster); `time` of the shutter, in [0, 1].
     CameraRay ray(glm::vec2 raster, glm::vec2 lens, float time = 0) const {
-        if (worldFromCamera_.moves())
-            return ray(raster, lens, Axes(worldFromCamera_.at(double(time))));
+        if (worldFromCamera_.moves()) return ray(raster, lens, Axes(worldFromCamera_.at(double(time))));
         return ray(raster, lens, axes_);
     }
 

@@ -213,9 +213,8 @@ void OptionBlock::resolve(Scene& scene, const SceneFiles& files, Monitor& monito
     Entity& sampler = entity("Sampler", "zsobol");
     Entity& integrator = entity("Integrator", "volpath");
     scene.camera = readShutter(camera.kind, camera.parameters);
-    scene.camera.worldFromCamera =
-        overShutter(worldFromCamera_, cameraTimes_, double(scene.camera.shutterOpen),
-                    double(scene.camera.shutterClose));
+    scene.camera.worldFromCamera = overShutter(
+        worldFromCamera_, cameraTimes_, double(scene.camera.shutterOpen), double(scene.camera.shutterClose));
     scene.film =
         readFilm(film.kind, film.parameters, scene.camera.shutterClose - scene.camera.shutterOpen, monitor);
     if (camera.kind == "realistic") {

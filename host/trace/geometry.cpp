@@ -92,10 +92,10 @@ void Geometry::Impl::resolve(const Ray& ray, unsigned instanceId, unsigned geome
         fill(world.still, exact);
         return;
     }
-    const auto& [instance, mover] = instances[instanceId - world.still.entries.size()];
-    hit.mover = mover;
-    instance.withFrame(ray.time, [&](const PlacedFrame& frame) {
-        fill(instance.body(), frame.toBody(exact));
+    const Placed& placed = instances[instanceId - world.still.entries.size()];
+    hit.mover = placed.mover;
+    placed.instance.withFrame(ray.time, [&](const PlacedFrame& frame) {
+        fill(placed.instance.body(), frame.toBody(exact));
         frame.toWorld(hit);
     });
 }

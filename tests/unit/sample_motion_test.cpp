@@ -1,6 +1,7 @@
 // The motion of samples against points followed by hand, and the overscan that it needs.
 #include "scene/transforms.h"
 #include "support/lenses.h"
+#include "support/scene_text.h"
 #include "trace/instance.h"
 #include "trace/sample_pass.h"
 #include "unit/trace_scenes.h"
@@ -244,6 +245,23 @@ TEST(SampleMotion, missesAreCounted) {
     EXPECT_LT(misses.quantilePx(0.995), 3.6f);
     EXPECT_EQ(misses.quantilePx(1), 1e30f);
     EXPECT_EQ(MotionMisses().quantilePx(0.5), 0);
+}
+
+TEST(SampleMotion, thatIsFarFromStraightIsReported) {
+    test::RecordingMonitor monitor;
+    const Scene turning = turningScene();
+    MotionMisses misses;
+    const LightField field = traceLightField(Tracer(turning, monitor), turning, {2}, monitor, &misses);
+    EXPECT_EQ(field.motion.size(), field.samples.size());
+    EXPECT_GT(misses.mostPx(), 1);
+    ASSERT_EQ(monitor.warnings.size(), 1u);
+    EXPECT_NE(monitor.warnings[0].find("the straight motion of samples misses by up to"), std::string::npos);
+
+    Scene straight = ballScene();
+    straight.camera.worldFromCamera = stepping(kOne, {0.1, 0, 0.2});
+    traceLightField(Tracer(straight, monitor), straight, {2}, monitor, &misses);
+    EXPECT_LT(misses.mostPx(), 1e-3f);
+    EXPECT_EQ(monitor.warnings.size(), 1u);
 }
 
 TEST(SampleMotion, doesNotDependOnRectanglesOrThreads) {
