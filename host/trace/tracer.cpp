@@ -32,11 +32,11 @@ Tracer::Tracer(const Scene& scene, Monitor& monitor)
 std::pair<double, double> Tracer::depthRange() const {
     std::vector<float> depths;
     for (int i = 0; i < kDepthProbes * kDepthProbes; ++i) {
-        const glm::vec2 part((float(i % kDepthProbes) + 0.5f) / kDepthProbes,
-                             (float(i / kDepthProbes) + 0.5f) / kDepthProbes);
-        const glm::vec2 raster = part * glm::vec2(scene_.film.xResolution, scene_.film.yResolution);
+        const int column = i % kDepthProbes, row = i / kDepthProbes;
+        const glm::vec2 part = (glm::vec2(column, row) + 0.5f) / float(kDepthProbes);
         // Every row and every column of probes sees all of the shutter.
-        const float time = (float((i + i / kDepthProbes) % kDepthProbes) + 0.5f) / kDepthProbes;
+        const float time = (float((column + row) % kDepthProbes) + 0.5f) / kDepthProbes;
+        const glm::vec2 raster = part * glm::vec2(scene_.film.xResolution, scene_.film.yResolution);
         const CameraSample sample = camera_.visit([&](const auto& camera) {
             return camera.sample(raster, {0.5f, 0.5f}, time);
         });
