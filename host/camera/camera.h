@@ -1,10 +1,14 @@
 // The camera of a scene, of whatever kind. Both kinds offer
 //
-//     CameraSample sample(glm::vec2 raster, glm::vec2 square) const   a ray, its lens position and weight
-//     SlopeModel slopeModel() const                                   of trajectories seen in the middle
+//     CameraSample sample(glm::vec2 raster, glm::vec2 square, float time) const
+//                                                a ray, its lens position and weight
+//     SlopeModel slopeModel() const              of trajectories seen in the middle
+//     AnimatedTransform worldFromCamera() const
+//     glm::dmat4x3 pinholeFromCamera() const     what the middle of the lens sees, in homogeneous coordinates
 #pragma once
 #include "camera/compound_lens.h"
 #include "camera/thin_lens.h"
+#include "scene/transforms.h"
 
 #include <variant>
 
@@ -26,6 +30,16 @@ public:
     /// The opening over which lens positions are spread.
     Aperture aperture() const {
         return visit([](const auto& camera) { return camera.aperture(); });
+    }
+    bool moves() const {
+        return visit([](const auto& camera) { return camera.worldFromCamera().moves(); });
+    }
+    /// (x w, y w, w) of a point of the world at a time of the shutter: seen from the middle of the lens at
+    /// raster position (x, y) and depth w; lightfield.h has points move along lines in these coordinates.
+    glm::dmat4x3 pinholeFromWorld(double time) const {
+        return visit([&](const auto& camera) {
+            return camera.pinholeFromCamera() * affineInverse(camera.worldFromCamera().at(time));
+        });
     }
     /// The lens, if the camera is of that kind.
     const CompoundLens* compoundLens() const { return std::get_if<CompoundLens>(&kind_); }

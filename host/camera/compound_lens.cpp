@@ -46,17 +46,11 @@ CompoundLens::CompoundLens(const RealisticCamera& camera, const MovingTransform&
       pupil_(lens_, filmZ_, kFilmReach * double(film.diagonalMm) / 2), aperture_(camera.aperture),
       depthOrigin_(std::clamp(lens_.entrancePupil().z, filmZ_, lens_.frontVertex())),
       focusDepth_(camera.focusDistance - (depthOrigin_ - filmZ_) / kMillimetres),
-      filmCentre_(film.xResolution / 2.0, film.yResolution / 2.0) {
-    if (worldFromCamera.moves()) throw badInput({}, "camera: a moving camera is not supported");
+      filmCentre_(film.xResolution / 2.0, film.yResolution / 2.0), worldFromCamera_(worldFromCamera),
+      axes_(axesOf(worldFromCamera.at[0])) {
     if (!(pupil_.radius() > 0))
         throw badInput({camera.lens.path}, "the lens forms no image: no ray gets through to the middle of "
                                            "the film");
-    const glm::dmat4& m = worldFromCamera.at[0];
-    right_ = glm::dvec3(m[0]) / kMillimetres;
-    down_ = -glm::dvec3(m[1]) / kMillimetres;
-    forward_ = glm::dvec3(m[2]) / kMillimetres;
-    centre_ = glm::dvec3(m[3]) + forward_ * (depthOrigin_ - filmZ_);
-
     const glm::dvec2 rim = pupil_.node(0, 0, PupilNodes::kDistances) / pupil_.radius();
     const auto axis = path(filmCentre_, {0, 0}), edge = path(filmCentre_, rim);
     if (!axis || !edge)
@@ -101,44 +95,65 @@ std::optional<ScenePath> CompoundLens::path(glm::dvec2 raster, glm::dvec2 pupil,
     return path;
 }
 
-CameraSample CompoundLens::dark(glm::vec2 lens) const {
-    return {{glm::vec3(centre_), glm::vec3(forward_ * kMillimetres)}, lens, 0};
+CompoundLens::Axes CompoundLens::axesOf(const glm::dmat4& m) const {
+    const glm::dvec3 forward = glm::dvec3(m[2]) / kMillimetres;
+    return {glm::dvec3(m[3]) + forward * (depthOrigin_ - filmZ_), glm::dvec3(m[0]) / kMillimetres,
+            -glm::dvec3(m[1]) / kMillimetres, forward};
+}
+
+glm::dmat4x3 CompoundLens::pinholeFromCamera() const {
+    glm::dmat4x3 result(0);
+    result[0].x = pixelsPerTangent_;
+    result[1].y = -pixelsPerTangent_;
+    result[2] = glm::dvec3(filmCentre_, 1);
+    result[3] = -(depthOrigin_ - filmZ_) / kMillimetres * result[2];
+    return result;
+}
+
+CameraSample CompoundLens::dark(glm::vec2 lens, const Axes& axes) {
+    return {{glm::vec3(axes.centre), glm::vec3(axes.forward * kMillimetres)}, lens, 0};
 }
 
 /// `ray` has left the lens.
-CameraSample CompoundLens::inWorld(const LensRay& ray, glm::vec2 lens, float weight) const {
-    if (ray.direction.z < kMinForward) return dark(lens);
+CameraSample CompoundLens::inWorld(const LensRay& ray, glm::vec2 lens, float weight, const Axes& axes) const {
+    if (ray.direction.z < kMinForward) return dark(lens, axes);
     const glm::dvec3 direction = ray.direction / ray.direction.z;
     const glm::dvec3 origin = ray.origin + (depthOrigin_ - ray.origin.z) * direction;
-    const auto world = [&](glm::dvec3 v) { return right_ * v.x + down_ * v.y; };
-    return {{glm::vec3(centre_ + world(origin)), glm::vec3((forward_ + world(direction)) * kMillimetres)},
-            lens,
-            weight};
+    const auto world = [&](glm::dvec3 v) { return axes.right * v.x + axes.down * v.y; };
+    return {
+        {glm::vec3(axes.centre + world(origin)), glm::vec3((axes.forward + world(direction)) * kMillimetres)},
+        lens,
+        weight};
 }
 
-CameraSample CompoundLens::sample(glm::vec2 raster, glm::vec2 square) const {
-    if (stopPupil_) return throughStop(raster, square);
+CameraSample CompoundLens::sample(glm::vec2 raster, glm::vec2 square, float time) const {
+    if (worldFromCamera_.moves()) return sample(raster, square, axesOf(worldFromCamera_.at(double(time))));
+    return sample(raster, square, axes_);
+}
+
+CameraSample CompoundLens::sample(glm::vec2 raster, glm::vec2 square, const Axes& axes) const {
+    if (stopPupil_) return throughStop(raster, square, axes);
     const glm::dvec2 offset = (glm::dvec2(raster) - filmCentre_) * mmPerPixel_;
     const double r = glm::length(offset), irradiance = pupil_.irradiance(r);
-    if (!(irradiance > 0)) return dark(glm::vec2(0));
+    if (!(irradiance > 0)) return dark(glm::vec2(0), axes);
     const RadialFrame frame(offset);
     glm::vec2 lens = concentricDisc(square.x, square.y);
     for (int step = 0; step < kInwardSteps; ++step, lens *= kInwards) {
         LensRay ray = filmRay(-offset, frame.from(pupil_.at(r, frame.to(lens))));
-        if (lens_.traceFromFilm(ray)) return inWorld(ray, lens, float(irradiance));
+        if (lens_.traceFromFilm(ray)) return inWorld(ray, lens, float(irradiance), axes);
     }
-    return dark(glm::vec2(0));
+    return dark(glm::vec2(0), axes);
 }
 
 /// The map decides what is open, so that reconstruction finds the same.
-CameraSample CompoundLens::throughStop(glm::vec2 raster, glm::vec2 square) const {
+CameraSample CompoundLens::throughStop(glm::vec2 raster, glm::vec2 square, const Axes& axes) const {
     const glm::vec2 lens = aperture_.at(2.f * square - 1.f);
     const float weight = lensMap_.at(raster, lens).weight;
-    if (!(weight > 0)) return dark(lens);
+    if (!(weight > 0)) return dark(lens, axes);
     const glm::dvec2 offset = (glm::dvec2(raster) - filmCentre_) * mmPerPixel_;
     const RadialFrame frame(offset);
     LensRay ray = filmRay(-offset, frame.from(stopPupil_->at(glm::length(offset), frame.to(lens))));
-    return lens_.traceBesideRims(ray) ? inWorld(ray, lens, weight) : dark(lens);
+    return lens_.traceBesideRims(ray) ? inWorld(ray, lens, weight, axes) : dark(lens, axes);
 }
 
 } // namespace slant

@@ -17,6 +17,7 @@
 #include "camera/lens_system.h"
 #include "camera/slope_model.h"
 #include "camera/stop_pupil.h"
+#include "scene/animated_transform.h"
 
 #include <optional>
 
@@ -39,11 +40,12 @@ enum class Rims { block, ignore };
 /// Depths count from the entrance pupil, but at most from the front vertex, in camera space (metres).
 class CompoundLens {
 public:
-    /// Throws Error(badInput) for a lens that forms no image or cannot focus as asked, a moving camera.
+    /// Throws Error(badInput) for a lens that forms no image or cannot focus as asked.
     CompoundLens(const RealisticCamera& camera, const MovingTransform& worldFromCamera, const Film& film);
 
-    /// `raster` in pixels, y downwards, on the film or beside it; `square` in [0, 1)^2.
-    CameraSample sample(glm::vec2 raster, glm::vec2 square) const;
+    /// `raster` in pixels, y downwards, on the film or beside it; `square` in [0, 1)^2; `time` of the
+    /// shutter.
+    CameraSample sample(glm::vec2 raster, glm::vec2 square, float time = 0) const;
 
     /// Slope of trajectories on the scene's side: c1 / depth + c2.
     SlopeModel slopeModel() const { return slopeModel_; }
@@ -59,6 +61,11 @@ public:
     /// nothing if it is blocked. `change` is along these.
     std::optional<ScenePath> path(glm::dvec2 raster, glm::dvec2 pupil, Rims rims = Rims::block) const;
 
+    const AnimatedTransform& worldFromCamera() const { return worldFromCamera_; }
+    /// (x w, y w, w) of a point in camera space, on the scene's side: x and y as the lens map has xy, seen
+    /// from the middle of the entrance pupil.
+    glm::dmat4x3 pinholeFromCamera() const;
+
     const LensSystem& lens() const { return lens_; }
     const Aperture& aperture() const { return aperture_; }
     const ExitPupil& pupil() const { return pupil_; }
@@ -72,9 +79,15 @@ public:
 
 private:
     LensRay filmRay(glm::dvec2 film, glm::dvec2 pupil) const;
-    CameraSample throughStop(glm::vec2 raster, glm::vec2 square) const;
-    CameraSample dark(glm::vec2 lens) const;
-    CameraSample inWorld(const LensRay& ray, glm::vec2 lens, float weight) const;
+    /// World space: the place of depth 0 on the axis, and a millimetre of lens space along its axes.
+    struct Axes {
+        glm::dvec3 centre, right, down, forward;
+    };
+    Axes axesOf(const glm::dmat4& worldFromCamera) const;
+    CameraSample sample(glm::vec2 raster, glm::vec2 square, const Axes& axes) const;
+    CameraSample throughStop(glm::vec2 raster, glm::vec2 square, const Axes& axes) const;
+    static CameraSample dark(glm::vec2 lens, const Axes& axes);
+    CameraSample inWorld(const LensRay& ray, glm::vec2 lens, float weight, const Axes& axes) const;
 
     LensSystem lens_;
     double filmZ_, mmPerPixel_;
@@ -86,8 +99,8 @@ private:
     double pixelsPerTangent_ = 0, pupilRadius_ = 0; ///< on the axis, the latter in metres
     SlopeModel slopeModel_;
     LensMap lensMap_;
-    // World space: the place of depth 0 on the axis, and a millimetre of lens space along its axes.
-    glm::dvec3 centre_{0}, right_{0}, down_{0}, forward_{0};
+    AnimatedTransform worldFromCamera_;
+    Axes axes_; ///< if it does not move
 };
 
 } // namespace slant

@@ -7,7 +7,9 @@
 
 namespace slant {
 
-ThinLens::ThinLens(const PerspectiveCamera& camera, const Film& film) : aperture_(camera.aperture) {
+ThinLens::ThinLens(const PerspectiveCamera& camera, const Film& film)
+    : aperture_(camera.aperture), worldFromCamera_(camera.worldFromCamera),
+      axes_(camera.worldFromCamera.at[0]) {
     FileLocation nowhere;
     if (!(camera.fovDegrees > 0 && camera.fovDegrees < 180))
         throw badInput(nowhere, "camera: fov {} is outside (0, 180) degrees", camera.fovDegrees);
@@ -15,7 +17,6 @@ ThinLens::ThinLens(const PerspectiveCamera& camera, const Film& film) : aperture
         throw badInput(nowhere, "camera: lensradius {} is not zero or positive", camera.lensRadius);
     if (camera.lensRadius > 0 && !(camera.focalDistance > 0))
         throw badInput(nowhere, "camera: focaldistance {} is not positive", camera.focalDistance);
-    if (camera.worldFromCamera.moves()) throw badInput(nowhere, "camera: a moving camera is not supported");
 
     double halfTangent = std::tan(double(camera.fovDegrees) * std::numbers::pi / 360);
     glm::dvec2 window = glm::dvec2(camera.screenMax) - glm::dvec2(camera.screenMin);
@@ -31,17 +32,20 @@ ThinLens::ThinLens(const PerspectiveCamera& camera, const Film& film) : aperture
     tangentOfRasterOrigin_ = glm::dvec2(camera.screenMin.x, -camera.screenMax.y) * halfTangent;
     lensRadius_ = camera.lensRadius;
     inverseFocalDistance_ = camera.lensRadius > 0 ? float(1 / double(camera.focalDistance)) : 0;
-
-    const glm::dmat4& m = camera.worldFromCamera.at[0];
-    right_ = m[0];
-    down_ = -m[1];
-    forward_ = m[2];
-    centre_ = m[3];
 }
 
 SlopeModel ThinLens::slopeModel() const {
     double c1 = -pixelsPerTangent_ * double(lensRadius_);
     return {float(c1), float(-c1 * double(inverseFocalDistance_))};
+}
+
+glm::dmat4x3 ThinLens::pinholeFromCamera() const {
+    const glm::dvec2 centre = -pixelsPerTangent_ * glm::dvec2(tangentOfRasterOrigin_);
+    glm::dmat4x3 result(0);
+    result[0].x = pixelsPerTangent_;
+    result[1].y = -pixelsPerTangent_;
+    result[2] = glm::dvec3(centre, 1);
+    return result;
 }
 
 } // namespace slant

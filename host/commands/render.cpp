@@ -4,6 +4,7 @@
 #include "commands/commands.h"
 #include "commands/picture_job.h"
 #include "commands/reconstruction.h"
+#include "commands/stats_file.h"
 
 #include <memory>
 
@@ -37,6 +38,7 @@ void runRender(RenderCommand options) {
     warnOf(result.traced.defects, result.report.emptyPixels, monitor);
     nlohmann::ordered_json details = {{"scene", options.picture.input}};
     addDetails(details, common, result.traced.field, backend, result.report);
+    if (result.traced.field.moves()) addMisses(details, result.traced.misses);
     writeDebugImage(options.picture, result.traced.field.frame, result.report);
     writeOutputs(options.picture, result.image, details, stagesOf(monitor.stages(), result.report),
                  watch.seconds());

@@ -39,16 +39,18 @@ void runSample(const FieldOptions& options) {
     sampling.samplesPerPixel = scene.pixelSamples;
     sampling.seed = common.seed;
     sampling.guides = options.auxiliary;
-    const LightField field = traceLightField(tracer, scene, sampling, monitor);
+    MotionMisses misses;
+    const LightField field = traceLightField(tracer, scene, sampling, monitor, &misses);
 
     writeField(options.output, field, metadataOf(scene, tracer.camera(), options.scene, common.seed),
                monitor);
-    if (!common.statsPath.empty())
-        writeStats(common.statsPath, monitor.stages(), watch.seconds(),
-                   {{"scene", options.scene},
-                    {"spp", field.samplesPerPixel},
-                    {"seed", common.seed},
-                    {"samples", field.samples.size()}});
+    if (common.statsPath.empty()) return;
+    nlohmann::ordered_json details = {{"scene", options.scene},
+                                      {"spp", field.samplesPerPixel},
+                                      {"seed", common.seed},
+                                      {"samples", field.samples.size()}};
+    if (field.moves()) addMisses(details, misses);
+    writeStats(common.statsPath, monitor.stages(), watch.seconds(), details);
 }
 
 } // namespace

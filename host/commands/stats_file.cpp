@@ -20,6 +20,10 @@ nlohmann::ordered_json statsJson(const std::vector<StageStats>& stages, double t
     return details;
 }
 
+void addMisses(nlohmann::ordered_json& details, const MotionMisses& misses) {
+    details["motionMissPx"] = {{"most", misses.mostPx()}, {"p99", misses.quantilePx(0.99)}};
+}
+
 void writeStats(const std::string& path, const std::vector<StageStats>& stages, double totalSeconds,
                 nlohmann::ordered_json details) {
     // A device name or a path may hold bytes that are not UTF-8.

@@ -7,7 +7,8 @@ namespace slant {
 
 TracedField traceField(const Tracer& tracer, const Scene& scene, const SampleOptions& options,
                        Monitor& monitor) {
-    TracedField traced{traceLightField(tracer, scene, options, monitor), {}};
+    TracedField traced;
+    traced.field = traceLightField(tracer, scene, options, monitor, &traced.misses);
     traced.defects = sanitize(traced.field);
     return traced;
 }

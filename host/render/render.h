@@ -3,6 +3,7 @@
 #include "base/monitor.h"
 #include "lightfield/field_metadata.h"
 #include "render/field_pictures.h"
+#include "trace/sample_motion.h"
 #include "trace/sample_options.h"
 
 namespace slant {
@@ -14,6 +15,7 @@ class Tracer;
 struct TracedField {
     LightField field; ///< sanitized
     FieldDefects defects;
+    MotionMisses misses; ///< of the samples' motion, where anything moves
 };
 
 /// What a file says about the light field of a scene; `source` names the scene.

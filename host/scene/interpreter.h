@@ -98,6 +98,7 @@ private:
     ParameterList list(const std::string& subject, Tokenizer& tokens, const Position& where,
                        AttributeTarget target);
     void warnIfMoving(const char* what, const Position& where);
+    MovingTransform placement(const Position& where) const;
 
     Scene& scene_;
     Monitor& monitor_;
@@ -108,6 +109,7 @@ private:
     GraphicsState state_;
     std::vector<Saved> saved_;
     bool inWorld_ = false;
+    std::array<double, 2> transformTimes_{0, 1};
     std::map<std::string, MovingTransform> coordinateSystems_;
     std::map<std::string, int> objects_;
     int openObject_ = -1; // index in Scene::objects

@@ -78,9 +78,10 @@ void Interpreter::accelerator(Tokenizer& tokens, const Position&) {
 
 void Interpreter::camera(Tokenizer& tokens, const Position& where) {
     setOption("Camera", tokens, where);
-    checkStatic(state_.transform, where);
+    checkMotion(state_.transform, where);
+    // As in pbrt the inverses are what is interpolated, not what the directives said.
     const MovingTransform worldFromCamera = inverse(state_.transform);
-    options_.setCameraTransform(worldFromCamera);
+    options_.setCameraTransform(worldFromCamera, transformTimes_);
     coordinateSystems_["camera"] = worldFromCamera;
 }
 
@@ -173,17 +174,24 @@ void Interpreter::areaLightSource(Tokenizer& tokens, const Position& where) {
     state_.areaLightIndex = int(scene_.areaLights.size()) - 1;
 }
 
+/// Of a shape or an instance, while the shutter is open.
+MovingTransform Interpreter::placement(const Position& where) const {
+    checkMotion(state_.transform, where);
+    return overShutter(state_.transform, transformTimes_, double(scene_.camera.shutterOpen),
+                       double(scene_.camera.shutterClose));
+}
+
 void Interpreter::shape(Tokenizer& tokens, const Position& where) {
     const std::string kind = stringOf(tokens.next());
     ParameterList parameters =
         list(fmt::format("Shape \"{}\"", printable(kind)), tokens, where, AttributeTarget::shape);
-    checkStatic(state_.transform, where);
+    const MovingTransform worldFromObject = placement(where);
     const bool inObject = openObject_ >= 0;
     if (inObject && state_.areaLightIndex >= 0)
         warn(where, "shapes of an object cannot emit light, as in pbrt; this one is dark");
     auto& target = inObject ? scene_.objects[std::size_t(openObject_)].shapes : scene_.shapes;
     for (Shape& shape : readShapes(kind, parameters, scene_, files_)) {
-        shape.worldFromObject = state_.transform;
+        shape.worldFromObject = worldFromObject;
         shape.reverseOrientation = state_.reverseOrientation;
         shape.materialIndex = state_.materialIndex;
         shape.areaLightIndex = inObject ? -1 : state_.areaLightIndex;
@@ -209,8 +217,7 @@ void Interpreter::objectEnd(Tokenizer&, const Position& where) {
 void Interpreter::objectInstance(Tokenizer& tokens, const Position& where) {
     const std::string name = stringOf(tokens.next());
     if (openObject_ >= 0) throw badInput(where, "ObjectInstance within ObjectBegin");
-    checkStatic(state_.transform, where);
-    instances_.push_back({name, state_.transform, where});
+    instances_.push_back({name, placement(where), where});
 }
 
 } // namespace slant

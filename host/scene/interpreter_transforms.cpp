@@ -110,6 +110,7 @@ void Interpreter::activeTransform(Tokenizer& tokens, const Position&) {
 void Interpreter::transformTimes(Tokenizer& tokens, const Position& where) {
     const auto [start, end] = readNumbers<2>(tokens);
     if (!(start < end)) throw badInput(where, "TransformTimes needs a start before the end");
+    transformTimes_ = {start, end};
 }
 
 } // namespace slant

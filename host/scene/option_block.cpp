@@ -5,6 +5,7 @@
 #include "scene/lens_file.h"
 #include "scene/scene_files.h"
 #include "scene/spelling.h"
+#include "scene/transforms.h"
 
 #include <algorithm>
 #include <cmath>
@@ -212,7 +213,8 @@ void OptionBlock::resolve(Scene& scene, const SceneFiles& files, Monitor& monito
     Entity& sampler = entity("Sampler", "zsobol");
     Entity& integrator = entity("Integrator", "volpath");
     scene.camera = readShutter(camera.kind, camera.parameters);
-    scene.camera.worldFromCamera = worldFromCamera_;
+    scene.camera.worldFromCamera = overShutter(
+        worldFromCamera_, cameraTimes_, double(scene.camera.shutterOpen), double(scene.camera.shutterClose));
     scene.film =
         readFilm(film.kind, film.parameters, scene.camera.shutterClose - scene.camera.shutterOpen, monitor);
     if (camera.kind == "realistic") {

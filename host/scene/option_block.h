@@ -17,7 +17,11 @@ class OptionBlock {
 public:
     /// `directive` is Film, PixelFilter, Camera, Sampler or Integrator.
     void set(const std::string& directive, const std::string& kind, ParameterList parameters);
-    void setCameraTransform(const MovingTransform& worldFromCamera) { worldFromCamera_ = worldFromCamera; }
+    /// `times` of the scene, at which the camera has the two transforms.
+    void setCameraTransform(const MovingTransform& worldFromCamera, const std::array<double, 2>& times) {
+        worldFromCamera_ = worldFromCamera;
+        cameraTimes_ = times;
+    }
 
     /// Fills the scene's part of it, with pbrt's defaults. Throws Error(badInput).
     void resolve(Scene& scene, const SceneFiles& files, Monitor& monitor);
@@ -32,6 +36,7 @@ private:
 
     std::map<std::string, Entity> entities_;
     MovingTransform worldFromCamera_;
+    std::array<double, 2> cameraTimes_{0, 1};
 };
 
 } // namespace slant

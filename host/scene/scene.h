@@ -19,9 +19,11 @@
 
 namespace slant {
 
-/// A transform at shutter open and close; equal where nothing moves.
+/// A transform at two times of the shutter, which opens at 0 and closes at 1; between and beyond them it is
+/// what AnimatedTransform says. Equal matrices where nothing moves while the shutter is open.
 struct MovingTransform {
     std::array<glm::dmat4, 2> at{glm::dmat4(1.0), glm::dmat4(1.0)};
+    std::array<double, 2> times{0, 1};
     bool moves() const { return at[0] != at[1]; }
 };
 

@@ -1,5 +1,7 @@
 #include "scene/transforms.h"
 
+#include "scene/animated_transform.h"
+
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
@@ -65,8 +67,22 @@ MovingTransform inverse(const MovingTransform& transform) {
     return {{affineInverse(transform.at[0]), affineInverse(transform.at[1])}};
 }
 
-void checkStatic(const MovingTransform& transform, const Position& where) {
-    if (transform.moves()) throw badInput(where, "animated transforms are not supported yet");
+void checkMotion(const MovingTransform& transform, const Position& where) {
+    if (!canInterpolate(transform))
+        throw badInput(where, "the transform here mirrors at one of StartTime and EndTime, but not at the "
+                              "other: it would be singular in between");
+}
+
+MovingTransform overShutter(const MovingTransform& transform, const std::array<double, 2>& times,
+                            double shutterOpen, double shutterClose) {
+    MovingTransform result = transform;
+    if (!transform.moves()) return result;
+    for (std::size_t i = 0; i < 2; ++i)
+        result.times[i] = (times[i] - shutterOpen) / (shutterClose - shutterOpen);
+    // All of the motion may be over before, or begin after.
+    if (result.times[1] <= 0) return {{transform.at[1], transform.at[1]}};
+    if (result.times[0] >= 1) return {{transform.at[0], transform.at[0]}};
+    return result;
 }
 
 } // namespace slant

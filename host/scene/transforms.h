@@ -7,7 +7,7 @@
 
 namespace slant {
 
-/// Which times of a MovingTransform the transform directives change (ActiveTransform).
+/// Which matrices of a MovingTransform the transform directives change (ActiveTransform).
 enum class ActiveTransform { all, start, end };
 
 /// Rotates by `degrees` about `axis` (any length but 0), by the right-hand formula, as in pbrt.
@@ -29,7 +29,11 @@ void checkInvertible(const glm::dmat4& matrix, const Position& where);
 
 MovingTransform inverse(const MovingTransform& transform);
 
-/// The one place that refuses animation. Throws Error(badInput) if `transform` moves.
-void checkStatic(const MovingTransform& transform, const Position& where);
+/// Throws Error(badInput) if the transform becomes singular between its two times.
+void checkMotion(const MovingTransform& transform, const Position& where);
+
+/// What the matrices at the times `times` of the scene do while the shutter is open.
+MovingTransform overShutter(const MovingTransform& transform, const std::array<double, 2>& times,
+                            double shutterOpen, double shutterClose);
 
 } // namespace slant

@@ -49,7 +49,7 @@ void BlockTracer::generate(int sample) {
             LightFieldSample& s = samples_[lane];
             s.x = std::min(float(x(i)) + point.x, lastX_[lane]);
             s.y = std::min(float(y(i)) + point.y, lastY_[lane]);
-            const CameraSample seen = camera.sample({s.x, s.y}, {point.a, point.b});
+            const CameraSample seen = camera.sample({s.x, s.y}, {point.a, point.b}, point.t);
             s.u = seen.lens.x;
             s.v = seen.lens.y;
             s.t = point.t;
@@ -104,9 +104,16 @@ void BlockTracer::store(int i, int sample) {
     std::size_t index = pixel * std::size_t(job_.count) + std::size_t(sample - job_.firstSample);
     job_.out.samples[index] = s;
     job_.out.radiance[index] = exposed(job_.scene.film, weights_[lane] * paths_[lane].radiance);
-    if (job_.out.albedo.empty()) return;
-    job_.out.albedo[index] = guides_[lane].albedo;
-    job_.out.normal[index] = guides_[lane].normal;
+    if (!job_.out.albedo.empty()) {
+        job_.out.albedo[index] = guides_[lane].albedo;
+        job_.out.normal[index] = guides_[lane].normal;
+    }
+    if (!job_.out.motion.empty()) {
+        // The dark around a picture keeps still.
+        const FittedMotion fitted = weights_[lane] > 0 ? job_.motion.of(hit, rays_[lane]) : FittedMotion();
+        job_.out.motion[index] = fitted.motion;
+        misses_.add(fitted.missPx);
+    }
 }
 
 } // namespace slant

@@ -4,6 +4,7 @@
 #include "trace/geometry.h"
 #include "trace/path.h"
 #include "trace/pattern.h"
+#include "trace/sample_motion.h"
 
 #include <array>
 #include <span>
@@ -24,6 +25,7 @@ struct TraceJob {
     Rect pixels;
     int firstSample, count;
     SampleSpans out;
+    const SampleMotion& motion;
 };
 
 class BlockTracer {
@@ -33,6 +35,8 @@ public:
 
     /// One sample of each pixel.
     void trace(int sample);
+    /// By how much straight motions missed, if the job asks for motion.
+    const MotionMisses& misses() const { return misses_; }
 
 private:
     static constexpr int kLanes = kBlockSize * kBlockSize;
@@ -57,6 +61,7 @@ private:
     std::array<PathState, kLanes> paths_;
     std::array<ShadowRay, kLanes> shadows_;
     std::array<bool, kLanes> goesOn_;
+    MotionMisses misses_;
 };
 
 } // namespace slant

@@ -24,6 +24,21 @@ inline void occluded(RTCScene scene, const int* valid, RTCRay16& rays) {
     rtcOccluded16(valid, scene, &rays);
 }
 
+using Context = RTCRayQueryContext;
+
+inline void searchInside(RTCScene scene, Context* context, RTCRayHit& ray) {
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.context = context;
+    rtcIntersect1(scene, &ray, &arguments);
+}
+inline void searchInside(RTCScene scene, Context* context, RTCRay& ray) {
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.context = context;
+    rtcOccluded1(scene, &ray, &arguments);
+}
+
 #else
 
 inline RTCIntersectContext newContext() {
@@ -52,6 +67,24 @@ inline void occluded(RTCScene scene, const int* valid, RTCRay16& rays) {
     rtcOccluded16(valid, scene, &context, &rays);
 }
 
+using Context = RTCIntersectContext;
+
+inline void searchInside(RTCScene scene, Context* context, RTCRayHit& ray) {
+    rtcIntersect1(scene, context, &ray);
+}
+inline void searchInside(RTCScene scene, Context* context, RTCRay& ray) {
+    rtcOccluded1(scene, context, &ray);
+}
+
 #endif
+
+/// Goes on with a ray in another scene, from within a callback: the nearest hit (RTCRayHit) or any (RTCRay).
+/// Hits there carry `instance` as their instID.
+template <typename Query>
+void searchInside(RTCScene scene, Context* context, unsigned instance, Query& ray) {
+    context->instID[0] = instance;
+    searchInside(scene, context, ray);
+    context->instID[0] = RTC_INVALID_GEOMETRY_ID;
+}
 
 } // namespace slant::embree

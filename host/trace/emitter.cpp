@@ -203,7 +203,7 @@ float quadricArea(const EmitterQuadric& q) {
     return float(sum / (kSteps * kSteps)) * objectArea(q);
 }
 
-bool sampleEmitter(const Emitter& e, const std::vector<EmitterQuadric>& quadrics, const Receiver& receiver,
+bool sampleEmitter(const Emitter& e, std::span<const EmitterQuadric> quadrics, const Receiver& receiver,
                    glm::vec2 u, LightSample& sample) {
     switch (e.shape) {
     case Emitter::Shape::point:
@@ -220,7 +220,7 @@ bool sampleEmitter(const Emitter& e, const std::vector<EmitterQuadric>& quadrics
     return false;
 }
 
-float emitterPdf(const Emitter& e, const std::vector<EmitterQuadric>& quadrics, const Receiver& receiver,
+float emitterPdf(const Emitter& e, std::span<const EmitterQuadric> quadrics, const Receiver& receiver,
                  glm::vec3 direction, glm::vec3 position, glm::vec3 normal) {
     glm::vec3 d = position - receiver.position;
     float fromArea = glm::dot(d, d) / std::max(std::abs(glm::dot(direction, normal)), 1e-12f);

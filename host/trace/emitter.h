@@ -3,7 +3,7 @@
 #pragma once
 #include "trace/warp.h"
 
-#include <vector>
+#include <span>
 
 namespace slant {
 
@@ -11,6 +11,7 @@ namespace slant {
 struct Receiver {
     glm::vec3 position{0};
     glm::vec3 normal{0, 0, 1}; ///< unit shading normal on the side of the path so far
+    float time = 0;            ///< of the shutter
 };
 
 /// A direction towards a light, as seen from a receiver.
@@ -48,19 +49,20 @@ struct Emitter {
     float area = 0;
     float size2 = 0; ///< triangle: square of the longest edge
     int quadric = -1;
+    int motion = -1; ///< -1: it keeps still; else all of this is as at time 0
 
     /// A light that is not bounded is sampled by area: fine from far away, noisy from nearby.
     bool bounded() const { return shape != Shape::patch && shape != Shape::quadric; }
 };
 
 /// False if no light comes that way. `sample.pdf` is the density over solid angle alone.
-bool sampleEmitter(const Emitter& emitter, const std::vector<EmitterQuadric>& quadrics,
-                   const Receiver& receiver, glm::vec2 u, LightSample& sample);
+bool sampleEmitter(const Emitter& emitter, std::span<const EmitterQuadric> quadrics, const Receiver& receiver,
+                   glm::vec2 u, LightSample& sample);
 
 /// Density with which sampleEmitter returns `direction`, which meets the emitter at `position`, where its
 /// unit normal (either side) is `normal`.
-float emitterPdf(const Emitter& emitter, const std::vector<EmitterQuadric>& quadrics,
-                 const Receiver& receiver, glm::vec3 direction, glm::vec3 position, glm::vec3 normal);
+float emitterPdf(const Emitter& emitter, std::span<const EmitterQuadric> quadrics, const Receiver& receiver,
+                 glm::vec3 direction, glm::vec3 position, glm::vec3 normal);
 
 /// Area in world space of the part of a quadric that exists.
 float quadricArea(const EmitterQuadric& quadric);

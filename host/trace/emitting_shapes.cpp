@@ -12,9 +12,10 @@ public:
     void add(const Shape& shape) {
         shape_ = &shape;
         light_ = &scene_.areaLights[std::size_t(shape.areaLightIndex)];
-        toWorld_ = shape.worldFromObject.at[0];
+        toWorld_ = AnimatedTransform(shape.worldFromObject).at(0);
         turned_ = shape.reverseOrientation != (glm::determinant(glm::dmat3(toWorld_)) < 0);
         bool patches = shape.kind == ShapeKind::mesh && mesh().kind == Mesh::Kind::bilinearPatches;
+        if (shape.worldFromObject.moves()) result_.motions.emplace_back(shape.worldFromObject);
         result_.shapes.push_back({int(result_.emitters.size()), patches});
         if (shape.kind != ShapeKind::mesh)
             addQuadric();
@@ -44,7 +45,7 @@ private:
         Emitter e;
         e.shape = shape;
         e.twoSided = light_->twoSided;
-        e.sampled = !shape_->worldFromObject.moves();
+        if (shape_->worldFromObject.moves()) e.motion = int(result_.motions.size()) - 1;
         e.radiance = light_->radiance * light_->scale;
         if (light_->power) e.radiance *= *light_->power / ((e.twoSided ? 2 : 1) * primitiveArea * kPi);
         return e;
@@ -99,7 +100,7 @@ private:
         e.twist = twist;
         e.area = area;
         e.side = sideOf(glm::cross(e.edge1 + 0.5f * twist, e.edge2 + 0.5f * twist), index, 4);
-        e.sampled = e.sampled && area > 0;
+        e.sampled = area > 0;
         result_.emitters.push_back(e);
         result_.emitters.push_back(e);
         result_.emitters.back().sampled = false; // stands for the same piece
@@ -120,10 +121,10 @@ private:
         Emitter e = piece(Emitter::Shape::quadric, area);
         e.area = area;
         e.side = turned_ ? -1.f : 1.f;
-        e.sampled = e.sampled && area > 0;
+        e.sampled = area > 0;
         e.origin = glm::vec3(toWorld_ * glm::dvec4(0, 0, 0, 1));
         e.radius = q.radius * float(std::cbrt(std::abs(glm::determinant(glm::dmat3(toWorld_)))));
-        if (!q.disc && whole && isSimilarity())
+        if (!q.disc && whole && keepsSpheres())
             e.shape = Emitter::Shape::sphere;
         else {
             e.quadric = int(result_.quadrics.size());
@@ -131,8 +132,12 @@ private:
         }
         result_.emitters.push_back(e);
     }
-    bool isSimilarity() const {
-        glm::dmat3 m(toWorld_), product = glm::transpose(m) * m;
+    /// Between two similarities of the same handedness AnimatedTransform passes through others.
+    bool keepsSpheres() const {
+        return isSimilarity(shape_->worldFromObject.at[0]) && isSimilarity(shape_->worldFromObject.at[1]);
+    }
+    static bool isSimilarity(const glm::dmat4& matrix) {
+        glm::dmat3 m(matrix), product = glm::transpose(m) * m;
         double scale2 = product[0][0], worst = 0;
         for (int c = 0; c < 3; ++c)
             for (int r = 0; r < 3; ++r)

@@ -2,7 +2,9 @@
 // quadric.
 #pragma once
 #include "scene/scene.h"
-#include "trace/emitter.h"
+#include "trace/moving_emitter.h"
+
+#include <vector>
 
 namespace slant {
 
@@ -15,11 +17,13 @@ struct EmittingShape {
 struct EmittingShapes {
     std::vector<Emitter> emitters;
     std::vector<EmitterQuadric> quadrics;
+    std::vector<EmitterMotion> motions;
     std::vector<EmittingShape> shapes; ///< one for each of Scene::shapes with an area light, in their order
 };
 
 /// Radiance follows pbrt-v4: `power`, in watts, is what each triangle, patch or quadric of the shape emits.
-/// Emitters that move are not `sampled`, nor are those without area.
+/// Those without area are not `sampled`. If a shape moves, its emitters are as at time 0, and power is by the
+/// area then.
 EmittingShapes makeEmitters(const Scene& scene);
 
 } // namespace slant

@@ -1,5 +1,5 @@
 // The surfaces of a scene and the rays that hit them: Embree finds the primitive, our own arithmetic
-// (surface.h) the point on it. Only geometry.cpp and embree.h include Embree.
+// (surface.h) the point on it. Embree is seen by geometry.cpp, body.h, instance.h and embree*.h alone.
 #pragma once
 #include "base/monitor.h"
 #include "scene/scene.h"
@@ -11,6 +11,8 @@
 #include <span>
 
 namespace slant {
+
+class Placement;
 
 class Geometry {
 public:
@@ -32,8 +34,12 @@ public:
     /// occluded[i] = 1 or 0.
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const;
 
-    /// World bounds of everything; empty for an empty scene.
+    /// World bounds of everything, wherever it moves; empty for an empty scene.
     Box bounds() const;
+
+    /// What moves: SurfaceHit::mover is one of so many numbers.
+    std::size_t moverCount() const;
+    const Placement& placement(int mover) const;
 
 private:
     struct Impl;

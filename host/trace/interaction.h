@@ -36,6 +36,8 @@ struct SurfaceHit {
     glm::vec3 positionError{0}; ///< bound on |error| of each coordinate, for offsetting new rays
     int materialIndex = -1;
     EmitterId emitter;
+    float time = 0; ///< of the ray
+    int mover = -1; ///< how it moves (Geometry::placement); -1: it keeps still
 
     bool hit() const { return materialIndex >= 0; }
 };

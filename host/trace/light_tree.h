@@ -7,6 +7,8 @@
 #pragma once
 #include "trace/emitter.h"
 
+#include <vector>
+
 namespace slant {
 
 /// What is known about an emitter, or a group of them, when choosing.

@@ -5,6 +5,10 @@
 namespace slant {
 namespace {
 
+/// Moving emitters are bounded by what they are at so many times, and this much of a step and of their size.
+constexpr int kMotionSteps = 16;
+constexpr float kStepMargin = 0.5f, kSizeMargin = 0.02f;
+
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// Mean luminance times cosine over the upper half (z > 0) of the map times 2 pi: what pbrt-v4 scales to the
@@ -22,7 +26,7 @@ float mapIlluminance(const Image& image) {
 }
 
 /// The box, cone and strength of an emitter.
-LightBounds boundsOf(const Emitter& e, const std::vector<EmitterQuadric>& quadrics) {
+LightBounds boundsAtOnce(const Emitter& e, std::span<const EmitterQuadric> quadrics) {
     LightBounds b;
     b.low = b.high = e.origin;
     b.twoSided = e.twoSided;
@@ -69,7 +73,7 @@ LightBounds boundsOf(const Emitter& e, const std::vector<EmitterQuadric>& quadri
 /// Two triangles side by side in one plane that shine to the same side: one light to choose.
 bool formQuadrilateral(const Emitter& a, const Emitter& b) {
     if (a.shape != Emitter::Shape::triangle || b.shape != Emitter::Shape::triangle ||
-        a.twoSided != b.twoSided || glm::dot(a.normal, b.normal) < 0.9999f)
+        a.twoSided != b.twoSided || a.motion != b.motion || glm::dot(a.normal, b.normal) < 0.9999f)
         return false;
     int shared = 0;
     for (glm::vec3 p : {a.origin, a.origin + a.edge1, a.origin + a.edge2})
@@ -84,10 +88,9 @@ Lights::Lights(const Scene& scene) {
     EmittingShapes made = makeEmitters(scene);
     emitters_ = std::move(made.emitters);
     quadrics_ = std::move(made.quadrics);
+    motions_ = std::move(made.motions);
     shapes_ = std::move(made.shapes);
     for (const Light& light : scene.lights) addLight(scene, light);
-    for (const Shape& shape : scene.shapes)
-        if (shape.areaLightIndex >= 0 && shape.worldFromObject.moves()) complete_ = false;
     addTree();
 }
 
@@ -132,6 +135,39 @@ void Lights::addLight(const Scene& scene, const Light& light) {
     }
 }
 
+template <typename Use>
+auto Lights::withEmitter(int piece, float time, Use&& use) const {
+    const Emitter& e = emitters_[std::size_t(piece)];
+    if (e.motion < 0) return use(e, std::span<const EmitterQuadric>(quadrics_));
+    const glm::dmat4 by = motions_[std::size_t(e.motion)].since0(double(time));
+    Emitter now = moved(e, by);
+    if (e.quadric < 0) return use(now, std::span<const EmitterQuadric>());
+    const EmitterQuadric quadric = moved(quadrics_[std::size_t(e.quadric)], by);
+    now.quadric = 0;
+    return use(now, std::span(&quadric, 1));
+}
+
+LightBounds Lights::boundsOf(const Emitter& emitter) const {
+    if (emitter.motion < 0) return boundsAtOnce(emitter, quadrics_);
+    LightBounds all;
+    glm::vec3 low, step(0);
+    for (int i = 0; i <= kMotionSteps; ++i) {
+        const LightBounds now =
+            withEmitter(int(&emitter - emitters_.data()), float(i) / kMotionSteps,
+                        [](const Emitter& e, auto quadrics) { return boundsAtOnce(e, quadrics); });
+        if (i > 0) step = glm::max(step, glm::abs(now.low - low));
+        low = now.low;
+        all = i > 0 ? LightBounds::join(all, now) : now;
+    }
+    const glm::vec3 margin = kStepMargin * step + kSizeMargin * (all.high - all.low);
+    all.low -= margin;
+    all.high += margin;
+    all.intensity /= kMotionSteps + 1;
+    if (all.cosineSpread < 0.9999f)
+        all.cosineSpread = -1; // it turns: between these times beyond their normals
+    return all;
+}
+
 void Lights::addTree() {
     std::vector<LightBounds> bounds;
     leafOf_.assign(emitters_.size(), -1);
@@ -139,7 +175,7 @@ void Lights::addTree() {
         const Emitter& e = emitters_[i];
         if (!e.sampled || !(luminance(e.radiance) > 0)) continue;
         if (!e.bounded()) complete_ = false;
-        LightBounds own = boundsOf(e, quadrics_);
+        LightBounds own = boundsOf(e);
         if (i > 0 && leafOf_[i - 1] >= 0 && leaves_.back().second < 0 &&
             formQuadrilateral(emitters_[i - 1], e)) {
             leaves_.back().second = int(i);
@@ -160,11 +196,12 @@ int Lights::pieceOf(const SurfaceHit& hit) const {
     const EmittingShape& shape = shapes_[std::size_t(hit.emitter.light)];
     if (!shape.patches) return shape.first + hit.emitter.primitive;
     int piece = shape.first + 2 * hit.emitter.primitive;
-    const Emitter& e = emitters_[std::size_t(piece)];
-    if (e.shape == Emitter::Shape::patch) return piece;
-    // Beyond the edge p10-p01 lies the other half.
-    glm::vec3 inwards = glm::cross(glm::cross(e.edge1, e.edge2), e.edge2 - e.edge1);
-    return glm::dot(inwards, hit.position - (e.origin + e.edge1)) >= 0 ? piece : piece + 1;
+    if (emitters_[std::size_t(piece)].shape == Emitter::Shape::patch) return piece;
+    return withEmitter(piece, hit.time, [&](const Emitter& e, auto) {
+        // Beyond the edge p10-p01 lies the other half.
+        glm::vec3 inwards = glm::cross(glm::cross(e.edge1, e.edge2), e.edge2 - e.edge1);
+        return glm::dot(inwards, hit.position - (e.origin + e.edge1)) >= 0 ? piece : piece + 1;
+    });
 }
 
 glm::vec3 Lights::emitted(const SurfaceHit& hit, glm::vec3 wo) const {
@@ -236,8 +273,11 @@ bool Lights::sample(const Receiver& receiver, float choice, glm::vec2 u, LightSa
     if (index < 0) return false;
     const Leaf& leaf = leaves_[std::size_t(index)];
     bool first = choice < leaf.firstChance;
-    const Emitter& e = emitters_[std::size_t(first ? leaf.first : leaf.second)];
-    if (!sampleEmitter(e, quadrics_, receiver, u, sample)) return false;
+    const bool found =
+        withEmitter(first ? leaf.first : leaf.second, receiver.time, [&](const Emitter& e, auto quadrics) {
+            return sampleEmitter(e, quadrics, receiver, u, sample);
+        });
+    if (!found) return false;
     sample.pdf *= chance * treeChance * (first ? leaf.firstChance : 1 - leaf.firstChance);
     return true;
 }
@@ -248,8 +288,9 @@ float Lights::pdf(const Receiver& receiver, const SurfaceHit& hit, glm::vec3 dir
     const Leaf& leaf = leaves_[std::size_t(index)];
     float half = piece == leaf.first ? leaf.firstChance : 1 - leaf.firstChance;
     return optionChance(optionCount() - 1, receiver) * tree_.chance(receiver, index) * half *
-           emitterPdf(emitters_[std::size_t(piece)], quadrics_, receiver, direction, hit.position,
-                      hit.geometricNormal);
+           withEmitter(piece, receiver.time, [&](const Emitter& e, auto quadrics) {
+               return emitterPdf(e, quadrics, receiver, direction, hit.position, hit.geometricNormal);
+           });
 }
 
 float Lights::infinitePdf(const Receiver& receiver, std::size_t i, glm::vec3 direction) const {

@@ -3,8 +3,8 @@
 // "illuminance" replace the brightness but keep the colour (pbrt-v4, lights.cpp).
 //
 // A light is chosen in proportion to an estimate of the irradiance it could cause at the receiver: among
-// distant and infinite lights and a LightTree over all emitters that have a place. Moving emitters are not
-// sampled; rays find them.
+// distant and infinite lights and a LightTree over all emitters that have a place: wherever they are over the
+// shutter, as the tree is the same at all times. Then they are sampled where they are at the receiver's time.
 #pragma once
 #include "trace/emitting_shapes.h"
 #include "trace/environment.h"
@@ -54,6 +54,11 @@ private:
     };
     void addLight(const Scene& scene, const Light& light);
     void addTree();
+    /// Calls use(emitter, quadrics) with an emitter as it is at a time.
+    template <typename Use>
+    auto withEmitter(int piece, float time, Use&& use) const;
+    /// Where it may be over the shutter.
+    LightBounds boundsOf(const Emitter& emitter) const;
     /// Index of the emitter that was hit.
     int pieceOf(const SurfaceHit& hit) const;
     /// Options are the infinite lights, the distant ones and the tree, in this order.
@@ -65,6 +70,7 @@ private:
 
     std::vector<Emitter> emitters_;
     std::vector<EmitterQuadric> quadrics_;
+    std::vector<EmitterMotion> motions_;
     std::vector<EmittingShape> shapes_;
     std::vector<Environment> infinite_;
     std::vector<Distant> distant_;

@@ -39,7 +39,7 @@ ShadowRay sampleDirectLight(const Lights& lights, const Bsdf& bsdf, const Surfac
                             const PathState& state, float choice, glm::vec2 u) {
     ShadowRay shadow;
     LightSample light;
-    if (!lights.sample({hit.position, bsdf.normal()}, choice, u, light)) return shadow;
+    if (!lights.sample({hit.position, bsdf.normal(), state.ray.time}, choice, u, light)) return shadow;
     glm::vec3 value = bsdf.evaluate(light.direction);
     if (value == glm::vec3(0) || light.radiance == glm::vec3(0)) return shadow;
     float weight = 1;
@@ -64,7 +64,7 @@ bool continuePath(const Lights& lights, const Bsdf& bsdf, const SurfaceHit& hit,
                    : bsdf.glossy() ? PathState::Origin::glossy
                                    : PathState::Origin::diffuse;
     state.throughput *= next.weight;
-    state.receiver = {hit.position, bsdf.normal()};
+    state.receiver = {hit.position, bsdf.normal(), state.ray.time};
     state.pdf = next.pdf;
     state.ray = {offsetRayOrigin(hit.position, hit.positionError, hit.geometricNormal, next.direction),
                  next.direction, std::numeric_limits<float>::infinity(), state.ray.time};

@@ -9,11 +9,11 @@
 //
 // tracePath does this for a single path. Geometry never appears here other than as hits.
 //
-// Strategies. Lights with bounded estimates (all but discs, cut spheres, bent patches and moving shapes) are
-// only sampled as lights on diffuse surfaces and on the diffuse part of a smooth coat: one shadow ray is the
-// whole of direct light there, and a ray that scattered so and meets such a light adds nothing. Everywhere
-// else light sampling and scattering are combined by the power heuristic (Veach 1997, section 9.2). Both
-// have the expectation that pbrt's two-ray estimate has.
+// Strategies. Lights with bounded estimates (all but discs, cut spheres and bent patches) are only sampled as
+// lights on diffuse surfaces and on the diffuse part of a smooth coat: one shadow ray is the whole of direct
+// light there, and a ray that scattered so and meets such a light adds nothing. Everywhere else light
+// sampling and scattering are combined by the power heuristic (Veach 1997, section 9.2). Both have the
+// expectation that pbrt's two-ray estimate has.
 #pragma once
 #include "lightfield/lightfield.h"
 #include "trace/lights.h"

@@ -16,9 +16,12 @@ namespace slant {
 namespace {
 
 constexpr double kMebibyte = 1 << 20;
+/// A miss of straight motions is worth a warning from this on, where more than this part of samples has it.
+constexpr float kSeenMissPx = 1;
+constexpr double kSeenShare = 0.001;
 
-std::uint64_t fieldBytes(Rect bounds, const SampleOptions& options) {
-    const std::uint64_t planes = options.guides ? 3 : 1;
+std::uint64_t fieldBytes(Rect bounds, const SampleOptions& options, bool moving) {
+    const std::uint64_t planes = (options.guides ? 3 : 1) + (moving ? 1 : 0);
     const std::uint64_t perSample = sizeof(LightFieldSample) + planes * sizeof(glm::vec3);
     return std::uint64_t(bounds.area()) * std::uint64_t(options.samplesPerPixel) * perSample;
 }
@@ -35,14 +38,15 @@ void requireBudget(std::uint64_t bytes, Rect bounds, const SampleOptions& option
 }
 
 /// Samples of one rectangle.
-SampleSet samplesOf(Rect pixels, const SampleOptions& options) {
+SampleSet samplesOf(Rect pixels, const SampleOptions& options, bool moving) {
     const std::size_t count = pixels.area() * std::size_t(options.samplesPerPixel);
     SampleSet set;
     try {
-        set.resize(count, options.guides);
+        set.resize(count, options.guides, moving);
     } catch (const std::exception&) { // bad_alloc or length_error
-        throw Error(ErrorCode::resources, fmt::format("no memory for {} samples ({:.0f} MiB)", count,
-                                                      double(fieldBytes(pixels, options)) / kMebibyte));
+        throw Error(ErrorCode::resources,
+                    fmt::format("no memory for {} samples ({:.0f} MiB)", count,
+                                double(fieldBytes(pixels, options, moving)) / kMebibyte));
     }
     return set;
 }
@@ -65,35 +69,77 @@ void copyRows(const SampleSet& from, Rect pixels, SampleSet& to, Rect bounds, in
     }
 }
 
+/// Samples count as they are seen while they are farther than this part of their depth.
+constexpr float kNearest = 1.f / 16;
+
+/// A sample's point at another time, as the middle of the lens sees it.
+struct Seen {
+    glm::vec2 shift; ///< of its pinhole position
+    float slope;
+};
+
+/// `after` the sample's own time, at which its pinhole position is `p`.
+Seen seenLater(const LightFieldSample& s, glm::vec2 p, const glm::vec3& motion, float after,
+               SlopeModel slopeModel) {
+    const float w = std::isinf(s.w) ? 1 : s.w, least = w * kNearest;
+    if (w + after * motion.z < least) after = (least - w) / motion.z;
+    const float depth = w + after * motion.z;
+    return {after / depth * (glm::vec2(motion) - motion.z * p),
+            std::isinf(s.w) ? s.slope : slopeModel(depth)};
+}
+
+/// Visits it when the shutter opens and when it closes: at all times between, its place and its slope lie
+/// between, and so do the ends of its blur.
+template <typename Visit>
+void visitEnds(const LightFieldSample& s, glm::vec2 p, const glm::vec3& motion, SlopeModel slopeModel,
+               Visit&& visit) {
+    if (motion == glm::vec3(0)) {
+        visit(Seen{glm::vec2(0), s.slope});
+        return;
+    }
+    visit(seenLater(s, p, motion, -s.t, slopeModel));
+    visit(seenLater(s, p, motion, 1 - s.t, slopeModel));
+}
+
 /// How far trajectories reach beyond a frame, in pixels; may be negative.
 struct Reach {
+    Rect frame;
+    SlopeModel slopeModel;
     float left = 0, top = 0, right = 0, bottom = 0;
 
-    void add(const LightFieldSample& s, Rect frame) {
-        float radius = std::abs(s.slope);
-        if (!std::isfinite(radius)) return;
-        const vec2 p = pinholeOf(vec2(s.x, s.y), vec2(s.u, s.v), s.slope);
-        include(p - radius, p + radius, frame);
+    void add(const LightFieldSample& s, const glm::vec3& motion) {
+        if (!std::isfinite(s.slope)) return;
+        const glm::vec2 p = pinholeOf(vec2(s.x, s.y), vec2(s.u, s.v), s.slope);
+        visitEnds(s, p, motion, slopeModel, [&](const Seen& seen) {
+            const float radius = std::abs(seen.slope);
+            include(p + seen.shift - radius, p + seen.shift + radius);
+        });
     }
     /// Through a lens: where the sample's point is seen from the rim of its pupil.
-    void add(const LightFieldSample& s, Rect frame, const LensMap& lens) {
-        // Nothing moves by more than this many times its slope.
+    void add(const LightFieldSample& s, const glm::vec3& motion, const LensMap& lens) {
+        // Nothing that keeps still moves by more than this many times its slope.
         const float most = 3 * std::abs(s.slope);
-        if (!(s.x - most < float(frame.x0) || s.x + most > float(frame.x1) || s.y - most < float(frame.y0) ||
-              s.y + most > float(frame.y1)))
+        if (motion == glm::vec3(0) && !(s.x - most < float(frame.x0) || s.x + most > float(frame.x1) ||
+                                        s.y - most < float(frame.y0) || s.y + most > float(frame.y1)))
             return;
         const glm::vec2 raster(s.x, s.y);
         const SceneRay here = lens.at(raster, {s.u, s.v});
         if (!(here.openShare > 0) || !std::isfinite(s.slope)) return;
         const glm::vec3& m = here.filmMetric;
-        for (const glm::vec2 rim : {glm::vec2(1, 0), glm::vec2(-1, 0), glm::vec2(0, 1), glm::vec2(0, -1)}) {
-            const glm::vec2 moved = 1.1f * s.slope * (lens.at(raster, rim).uv - here.uv);
-            const glm::vec2 seen =
-                raster + glm::vec2(m.x * moved.x + m.y * moved.y, m.y * moved.x + m.z * moved.y);
-            include(seen, seen, frame);
-        }
+        const glm::vec2 p = here.xy - s.slope * here.uv;
+        visitEnds(s, p, motion, slopeModel, [&](const Seen& seen) {
+            const glm::vec2 shift = seen.shift + (seen.slope - s.slope) * here.uv;
+            for (const glm::vec2 rim :
+                 {glm::vec2(1, 0), glm::vec2(-1, 0), glm::vec2(0, 1), glm::vec2(0, -1)}) {
+                const glm::vec2 moved =
+                    1.1f * seen.slope * (lens.at(raster, rim).uv - here.uv) + 1.1f * shift;
+                const glm::vec2 film =
+                    raster + glm::vec2(m.x * moved.x + m.y * moved.y, m.y * moved.x + m.z * moved.y);
+                include(film, film);
+            }
+        });
     }
-    void include(glm::vec2 low, glm::vec2 high, Rect frame) {
+    void include(glm::vec2 low, glm::vec2 high) {
         left = std::max(left, float(frame.x0) - low.x);
         right = std::max(right, high.x - float(frame.x1));
         top = std::max(top, float(frame.y0) - low.y);
@@ -110,16 +156,18 @@ struct Reach {
 } // namespace
 
 Rect boundsWithOverscan(Rect frame, glm::ivec2 filterReach, std::span<const LightFieldSample> samples,
-                        int samplesPerPixel, int limitPx, int& wantedPx, const LensMap& lens) {
-    Reach reach;
+                        std::span<const glm::vec3> motion, SlopeModel slopeModel, int samplesPerPixel,
+                        int limitPx, int& wantedPx, const LensMap& lens) {
+    Reach reach{frame, slopeModel};
     std::mutex mutex;
     parallelFor(0, samples.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
-        Reach local;
+        Reach local{frame, slopeModel};
         for (std::size_t i = first; i < last; ++i) {
+            const glm::vec3 m = motion.empty() ? glm::vec3(0) : motion[i];
             if (lens.empty())
-                local.add(samples[i], frame);
+                local.add(samples[i], m);
             else
-                local.add(samples[i], frame, lens);
+                local.add(samples[i], m, lens);
         }
         const std::lock_guard lock(mutex);
         reach.add(local);
@@ -137,33 +185,49 @@ Rect boundsWithOverscan(Rect frame, glm::ivec2 filterReach, std::span<const Ligh
             frame.x1 + side(reach.right, margin.x), frame.y1 + side(reach.bottom, margin.y)};
 }
 
+namespace {
+
+void warnOfMisses(const MotionMisses& misses, Monitor& monitor) {
+    const float usual = misses.quantilePx(1 - kSeenShare);
+    if (usual > kSeenMissPx)
+        monitor.warn(
+            fmt::format("points turn while the shutter is open: the straight motion of samples misses "
+                        "by up to {:.1f} pixels, by {:.1f} for one in {:.0f}; a shorter shutter helps",
+                        misses.mostPx(), usual, 1 / kSeenShare));
+}
+
+} // namespace
+
 LightField traceLightField(const Tracer& tracer, const Scene& scene, const SampleOptions& options,
-                           Monitor& monitor) {
+                           Monitor& monitor, MotionMisses* misses) {
     const int spp = options.samplesPerPixel;
     const Rect frame = scene.film.crop;
-    // Outputs of these pixels count; even if the filter sees none beside the frame, those at its rim have
-    // neighbours.
     const LensMap lensMap = tracer.camera().lensMap();
-    auto trace = [&](Rect pixels, SampleSet& into) {
-        tracer.trace(pixels, 0, spp, spp, options.seed, spansOf(into), monitor);
+    const SlopeModel slopeModel = tracer.camera().slopeModel();
+    const bool moving = tracer.moves();
+    auto trace = [&](Rect pixels, SampleSet& into, MotionMisses* missed) {
+        tracer.trace(pixels, 0, spp, spp, options.seed, spansOf(into), monitor, missed);
     };
-    requireBudget(fieldBytes(frame, options), frame, options);
-    SampleSet inFrame = samplesOf(frame, options);
+    requireBudget(fieldBytes(frame, options, moving), frame, options);
+    SampleSet inFrame = samplesOf(frame, options, moving);
+    MotionMisses missed;
     monitor.beginStage("trace", std::uint64_t(frame.area()) * std::uint64_t(spp), "samples");
-    trace(frame, inFrame);
+    trace(frame, inFrame, moving ? &missed : nullptr);
     monitor.endStage();
+    warnOfMisses(missed, monitor);
+    if (misses) *misses = missed;
 
     int limit = std::max(scene.film.xResolution, scene.film.yResolution) / 2, wanted = 0;
-    const Rect bounds =
-        boundsWithOverscan(frame, filterReach(scene.filter), inFrame.samples, spp, limit, wanted, lensMap);
+    const Rect bounds = boundsWithOverscan(frame, filterReach(scene.filter), inFrame.samples, inFrame.motion,
+                                           slopeModel, spp, limit, wanted, lensMap);
     if (wanted > limit)
         monitor.warn(
-            fmt::format("blur reaches {} pixels beyond the frame; the overscan is limited to {} pixels, so "
+            fmt::format("{} reaches {} pixels beyond the frame; the overscan is limited to {} pixels, so "
                         "borders may lack what enters from farther out",
-                        wanted, limit));
-    requireBudget(fieldBytes(bounds, options) + fieldBytes(frame, options), bounds, options);
-    LightField field{samplesOf(bounds, options), bounds,  frame, spp, tracer.camera().slopeModel(),
-                     tracer.camera().aperture(), lensMap, {}};
+                        moving ? "blur or motion" : "blur", wanted, limit));
+    requireBudget(fieldBytes(bounds, options, moving) + fieldBytes(frame, options, moving), bounds, options);
+    LightField field{samplesOf(bounds, options, moving), bounds,  frame, spp, slopeModel,
+                     tracer.camera().aperture(),         lensMap, {}};
     copyRows(inFrame, frame, field, bounds, spp);
     monitor.beginStage("trace overscan", std::uint64_t(bounds.area() - frame.area()) * std::uint64_t(spp),
                        "samples");
@@ -171,8 +235,8 @@ LightField traceLightField(const Tracer& tracer, const Scene& scene, const Sampl
         Rect{bounds.x0, bounds.y0, bounds.x1, frame.y0}, Rect{bounds.x0, frame.y0, frame.x0, frame.y1},
         Rect{frame.x1, frame.y0, bounds.x1, frame.y1}, Rect{bounds.x0, frame.y1, bounds.x1, bounds.y1}};
     for (Rect part : ring) {
-        SampleSet samples = samplesOf(part, options);
-        trace(part, samples);
+        SampleSet samples = samplesOf(part, options, moving);
+        trace(part, samples, nullptr);
         copyRows(samples, part, field, bounds, spp);
     }
     monitor.endStage();

@@ -7,15 +7,17 @@ namespace slant {
 
 /// Traces Film::crop, then an overscan on each side as wide as any seen sample's trajectory reaches beyond
 /// it, plus the reach of the pixel filter and the reconstruction radius; at most half of the film's longer
-/// side (then it warns). Throws Error(resources) when the samples do not fit the budget or memory, before
-/// tracing them.
+/// side (then it warns). Where anything moves, samples have their motion, and `misses`, if not null, receives
+/// how far off straight lines are for those of the frame (it warns if that is seen). Throws Error(resources)
+/// when the samples do not fit the budget or memory, before tracing them.
 LightField traceLightField(const Tracer& tracer, const Scene& scene, const SampleOptions& options,
-                           Monitor& monitor);
+                           Monitor& monitor, MotionMisses* misses = nullptr);
 
-/// The bounds for a frame whose samples are given (any order), seen through a pixel filter that reaches
-/// `filterReach` pixels to each side; sides of the overscan are at most `limitPx`. Sets `wantedPx` to the
-/// widest side that would be needed.
+/// The bounds for a frame whose samples are given (any order), with their motion or without, seen through a
+/// pixel filter that reaches `filterReach` pixels to each side; sides of the overscan are at most `limitPx`.
+/// Sets `wantedPx` to the widest side that would be needed.
 Rect boundsWithOverscan(Rect frame, glm::ivec2 filterReach, std::span<const LightFieldSample> samples,
-                        int samplesPerPixel, int limitPx, int& wantedPx, const LensMap& lens = {});
+                        std::span<const glm::vec3> motion, SlopeModel slopeModel, int samplesPerPixel,
+                        int limitPx, int& wantedPx, const LensMap& lens = {});
 
 } // namespace slant

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 namespace slant {
 namespace {
@@ -25,19 +26,24 @@ constexpr double kOutlierShare = 0.02;
 } // namespace
 
 Tracer::Tracer(const Scene& scene, Monitor& monitor)
-    : scene_(scene), camera_(scene), geometry_(scene, monitor), shading_(scene) {}
+    : scene_(scene), camera_(scene), geometry_(scene, monitor), shading_(scene), motion_(camera_, geometry_) {
+}
 
 std::pair<double, double> Tracer::depthRange() const {
     std::vector<float> depths;
     for (int i = 0; i < kDepthProbes * kDepthProbes; ++i) {
-        const glm::vec2 part((float(i % kDepthProbes) + 0.5f) / kDepthProbes,
-                             (float(i / kDepthProbes) + 0.5f) / kDepthProbes);
+        const int column = i % kDepthProbes, row = i / kDepthProbes;
+        const glm::vec2 part = (glm::vec2(column, row) + 0.5f) / float(kDepthProbes);
+        // Every row and every column of probes sees all of the shutter.
+        const float time = (float((column + row) % kDepthProbes) + 0.5f) / kDepthProbes;
         const glm::vec2 raster = part * glm::vec2(scene_.film.xResolution, scene_.film.yResolution);
         const CameraSample sample = camera_.visit([&](const auto& camera) {
-            return camera.sample(raster, {0.5f, 0.5f});
+            return camera.sample(raster, {0.5f, 0.5f}, time);
         });
         SurfaceHit hit;
-        if (sample.weight > 0) geometry_.intersect({sample.ray.origin, sample.ray.direction}, hit);
+        if (sample.weight > 0)
+            geometry_.intersect(
+                {sample.ray.origin, sample.ray.direction, std::numeric_limits<float>::infinity(), time}, hit);
         depths.push_back(hit.t);
     }
     std::sort(depths.begin(), depths.end());
@@ -46,7 +52,7 @@ std::pair<double, double> Tracer::depthRange() const {
 }
 
 void Tracer::trace(Rect pixels, int firstSample, int count, int samplesPerPixel, std::uint64_t seed,
-                   const SampleSpans& out, Monitor& monitor) const {
+                   const SampleSpans& out, Monitor& monitor, MotionMisses* misses) const {
     Pattern pattern(samplesPerPixel, seed);
     const std::size_t samples = pixels.area() * std::size_t(std::max(count, 0));
     const auto fits = [&](std::span<const glm::vec3> plane, bool optional) {
@@ -57,7 +63,8 @@ void Tracer::trace(Rect pixels, int firstSample, int count, int samplesPerPixel,
         out.normal.size() != out.albedo.size() || !fits(out.motion, true))
         throw Error(ErrorCode::usage, "the buffers do not fit the samples to trace");
     if (samples == 0) return;
-    TraceJob job{scene_, camera_, geometry_, shading_, pattern, pixels, firstSample, count, out};
+    TraceJob job{scene_, camera_, geometry_, shading_, pattern, pixels, firstSample, count, out, motion_};
+    std::mutex mutex;
     const int column0 = floorDivide(pixels.x0, kBlockSize),
               column1 = floorDivide(pixels.x1 - 1, kBlockSize) + 1;
     const int row0 = floorDivide(pixels.y0, kBlockSize), row1 = floorDivide(pixels.y1 - 1, kBlockSize) + 1;
@@ -68,6 +75,10 @@ void Tracer::trace(Rect pixels, int firstSample, int count, int samplesPerPixel,
                       y = (row0 + int(i / columns)) * kBlockSize;
             BlockTracer block(job, x, y);
             for (int sample = firstSample; sample < firstSample + count; ++sample) block.trace(sample);
+            if (misses) {
+                const std::lock_guard lock(mutex);
+                misses->add(block.misses());
+            }
             Rect covered = Rect{x, y, x + kBlockSize, y + kBlockSize}.intersect(pixels);
             monitor.advance(covered.area() * std::uint64_t(count));
         }

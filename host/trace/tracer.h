@@ -7,6 +7,7 @@
 #include "scene/scene.h"
 #include "trace/geometry.h"
 #include "trace/path.h"
+#include "trace/sample_motion.h"
 
 #include <span>
 #include <utility>
@@ -22,10 +23,14 @@ public:
     /// Writes samples [firstSample, firstSample + count) of each pixel of `pixels`, a pattern of
     /// samplesPerPixel, in the order of LightField: row, column, sample. Any pixels are allowed, on the film
     /// or beside it. A sample depends on its pixel, its index, samplesPerPixel and the seed alone. Calls
-    /// monitor.advance with samples. `out` has room for pixels.area() * count of them. Throws Error(usage)
-    /// for sizes that do not fit, and what the monitor throws.
+    /// monitor.advance with samples. `out` has room for pixels.area() * count of them; `misses`, if not null,
+    /// receives what straight motions miss, if `out` has room for motion. Throws Error(usage) for sizes that
+    /// do not fit, and what the monitor throws.
     void trace(Rect pixels, int firstSample, int count, int samplesPerPixel, std::uint64_t seed,
-               const SampleSpans& out, Monitor& monitor) const;
+               const SampleSpans& out, Monitor& monitor, MotionMisses* misses = nullptr) const;
+
+    /// Whether anything moves while the shutter is open: if not, all motion is 0.
+    bool moves() const { return motion_.any(); }
 
     /// The nearest and farthest depth seen from the middle of the lens, without outliers; either may be
     /// infinite.
@@ -39,6 +44,7 @@ private:
     Camera camera_;
     Geometry geometry_;
     Shading shading_;
+    SampleMotion motion_;
 };
 
 } // namespace slant

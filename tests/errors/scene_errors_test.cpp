@@ -136,6 +136,20 @@ TEST(SceneErrors, shapes) {
         "WorldBegin\nShape ");
 }
 
+TEST(SceneErrors, motion) {
+    check({
+        {"TransformTimes 1 0.5 WorldBegin", ":1:1: TransformTimes needs a start before the end"},
+        {"TransformTimes 0 inf WorldBegin", ":1:18: 'inf' is not a finite number in the range of a float"},
+        {"ActiveTransform EndTime Scale 0 1 1 WorldBegin",
+         ":1:25: the transform here is singular: it cannot be inverted"},
+        {"WorldBegin\nActiveTransform EndTime\nScale -1 1 1\nShape \"sphere\"",
+         ":4:1: the transform here mirrors at one of StartTime and EndTime, but not at the other: it would "
+         "be singular in between"},
+        {"Camera \"perspective\" \"float shutteropen\" .5 \"float shutterclose\" .5 WorldBegin",
+         ":1:1: the shutter never opens: 'shutterclose' must be after 'shutteropen'"},
+    });
+}
+
 TEST(SceneErrors, options) {
     check({
         {"Film \"rbg\"\nWorldBegin", ":1:1: film \"rbg\" is not supported, did you mean 'rgb'?"},

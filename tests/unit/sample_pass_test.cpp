@@ -224,11 +224,11 @@ TEST(SamplePass, boundsFollowTheFurthestTrajectoryOnEachSide) {
     s.x = 2.5f, s.y = 5.5f, s.u = 0.5f, s.slope = -3;
     int wanted = 0;
     // The trajectory's disc: centre (4, 5.5), radius 3.
-    Rect bounds = boundsWithOverscan({2, 3, 10, 8}, {0, 5}, {{s}}, 16, 100, wanted);
+    Rect bounds = boundsWithOverscan({2, 3, 10, 8}, {0, 5}, {{s}}, {}, {}, 16, 100, wanted);
     EXPECT_EQ(bounds, (Rect{2 - 3, 3 - 7, 10 + 2, 8 + 7}));
     EXPECT_EQ(wanted, 7);
     s.slope = NAN;
-    EXPECT_EQ(boundsWithOverscan({2, 3, 10, 8}, {1, 1}, {{s}}, 16, 100, wanted),
+    EXPECT_EQ(boundsWithOverscan({2, 3, 10, 8}, {1, 1}, {{s}}, {}, {}, 16, 100, wanted),
               (Rect{2, 3, 10, 8}.expand(2)));
 }
 

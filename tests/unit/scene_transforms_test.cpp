@@ -78,15 +78,40 @@ TEST(SceneTransforms, nameCoordinateSystems) {
               "s.pbrt:1:30: there is no coordinate system \"wrold\", did you mean 'world'?");
 }
 
-TEST(SceneTransforms, areRefusedWhenTheyMoveOrCannotBeInverted) {
-    EXPECT_EQ(
-        errorOf("WorldBegin ActiveTransform EndTime Translate 1 0 0 ActiveTransform All\nShape \"sphere\""),
-        "s.pbrt:2:1: animated transforms are not supported yet");
-    EXPECT_EQ(errorOf("ActiveTransform StartTime Scale 2 2 2\nCamera \"perspective\""),
-              "s.pbrt:2:1: animated transforms are not supported yet");
-    EXPECT_EQ(errorOf("WorldBegin ObjectBegin \"a\" Shape \"sphere\" ObjectEnd ActiveTransform EndTime\n"
-                      "Rotate 9 0 0 1\nObjectInstance \"a\""),
-              "s.pbrt:3:1: animated transforms are not supported yet");
+TEST(SceneTransforms, moveWhileTheShutterIsOpen) {
+    const std::string move = "ActiveTransform EndTime Translate 8 0 0 ActiveTransform All ";
+    const Scene scene =
+        sceneOf("TransformTimes 0 2 " + move +
+                "Camera \"perspective\" \"float shutterclose\" .5 TransformTimes 0 1 WorldBegin " + move +
+                "Scale 2 2 2 Shape \"sphere\" ObjectBegin \"a\" Shape \"disk\" ObjectEnd " + move +
+                "ObjectInstance \"a\"");
+    const auto expectMotion = [](const MovingTransform& transform, double x, double endTime) {
+        EXPECT_TRUE(transform.moves());
+        EXPECT_EQ(transform.at[0][3].x, 0);
+        EXPECT_EQ(transform.at[1][3].x, x);
+        EXPECT_EQ(transform.times, (std::array<double, 2>{0, endTime}));
+    };
+    // The camera has the times that stood before it, and moves against what moves the world.
+    expectMotion(scene.camera.worldFromCamera, -8, 4);
+    expectMotion(scene.shapes.at(0).worldFromObject, 8, 2);
+    expectMotion(scene.objects.at(0).shapes.at(0).worldFromObject, 8, 2);
+    expectMotion(scene.instances.at(0).worldFromInstance, 24, 2);
+    const Scene early = sceneOf("TransformTimes -2 0 WorldBegin " + move + "Shape \"sphere\"");
+    EXPECT_FALSE(early.shapes.at(0).worldFromObject.moves());
+    EXPECT_EQ(early.shapes.at(0).worldFromObject.at[0][3].x, 8);
+}
+
+TEST(SceneTransforms, areRefusedWhenTheyCannotBeInverted) {
+    const std::string mirrors = "ActiveTransform EndTime Scale 1 -1 1 ActiveTransform All\n",
+                      message = "the transform here mirrors at one of StartTime and EndTime, but not at the "
+                                "other: it would be singular in between";
+    EXPECT_EQ(errorOf("WorldBegin " + mirrors + "Shape \"sphere\""), "s.pbrt:2:1: " + message);
+    EXPECT_EQ(errorOf(mirrors + "Camera \"perspective\""), "s.pbrt:2:1: " + message);
+    EXPECT_EQ(errorOf("WorldBegin ObjectBegin \"a\" Shape \"sphere\" ObjectEnd " + mirrors +
+                      "ObjectInstance \"a\""),
+              "s.pbrt:2:1: " + message);
+    EXPECT_EQ(errorOf("WorldBegin\nActiveTransform EndTime Scale 1 0 1"),
+              "s.pbrt:2:25: the transform here is singular: it cannot be inverted");
     EXPECT_EQ(
         errorOf(
             "TransformTimes 0 1 ActiveTransform EndTime Translate 1 0 0 Identity ActiveTransform StartTime "
@@ -107,6 +132,10 @@ TEST(SceneTransforms, areRefusedWhenTheyMoveOrCannotBeInverted) {
     EXPECT_EQ(errorOf("Rotate 90 0 0 0"), "s.pbrt:1:1: Rotate needs an axis that is not 0 0 0");
     EXPECT_EQ(errorOf("Rotate 90 0 0"), "s.pbrt:1:14: expected a number, found the end of the file");
     EXPECT_EQ(errorOf("TransformTimes 1 1"), "s.pbrt:1:1: TransformTimes needs a start before the end");
+    EXPECT_EQ(errorOf("TransformTimes 0 1e999"),
+              "s.pbrt:1:18: '1e999' is not a finite number in the range of a float");
+    EXPECT_EQ(errorOf("TransformTimes nan 1"),
+              "s.pbrt:1:16: 'nan' is not a finite number in the range of a float");
     EXPECT_EQ(errorOf("ActiveTransform Al"),
               "s.pbrt:1:17: ActiveTransform takes All, StartTime or EndTime, not 'Al', did you mean 'All'?");
 }
