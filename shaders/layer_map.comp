@@ -9,18 +9,24 @@ layout(set = 0, binding = 9, rgba32ui) uniform writeonly uimageBuffer texels;
 layout(set = 0, binding = 10, r32ui) uniform uimageBuffer counters;
 layout(set = 0, binding = 11, r32ui) uniform writeonly uimageBuffer overflowList;
 
+layout(set = 0, binding = 12, rgba32ui) uniform writeonly uimageBuffer mapMotions; // of both layers
+
 struct LayerTexel {
-    uvec4 words;
+    uvec4 words, motions;
     int count;
 };
 
 LayerTexel noLayers() {
-    return LayerTexel(uvec4(kNoLayerWords, kNoLayerWords), 0);
+    return LayerTexel(uvec4(kNoLayerWords, kNoLayerWords), uvec4(0u), 0);
 }
 
-void keepLayer(vec3 rgb, float coverage, float slope, SlopeCode code, inout LayerTexel texel) {
+void keepLayer(vec3 rgb, float coverage, float slope, vec3 motion, SlopeCode code, inout LayerTexel texel) {
     const uvec2 words = packLayer(rgb, coverage, slope, code);
     texel.words = texel.count == 0 ? uvec4(words, kNoLayerWords) : uvec4(texel.words.xy, words);
+    if (kMoving) {
+        const uvec2 moving = packMotion(motion, motionLayout);
+        texel.motions = texel.count == 0 ? uvec4(moving, 0u, 0u) : uvec4(texel.motions.xy, moving);
+    }
     ++texel.count;
 }
 #include "lib/map_sweep.glsl"
@@ -41,7 +47,7 @@ void main() {
     for (int reach = 1; reach <= 2 && sweep.texel.count > 1; ++reach) {
         sweep = newSweep(push.grid, push.baseRadiusPx, float(side), slopeCode(push.grid));
         const int steps =
-            forEachCandidate(push.grid, outputOnFilm(p, vec2(0.0), 0.0, 0.0),
+            forEachCandidate(push.grid, outputOnFilm(p, vec2(0.0), 0.5, 0.0),
                              float(reach) * push.baseRadiusPx, sweep.maxRadiusRatio, begin, end, sweep);
         complete = complete && steps <= kMaxSteps;
         if (sweep.surface.count > 0) close(sweep, true);
@@ -50,4 +56,5 @@ void main() {
     if (!complete)
         imageStore(overflowList, int(imageAtomicAdd(counters, int(kOverflowCount), 1u)), uvec4(texel));
     imageStore(texels, texel, sweep.texel.words);
+    if (kMoving) imageStore(mapMotions, texel, sweep.texel.motions);
 }

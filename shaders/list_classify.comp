@@ -2,16 +2,20 @@
 // For each list: the clusters of surfaces that it sees, if its outputs can be taken from the layer map.
 #extension GL_GOOGLE_include_directive : require
 #include "resources/brick.glsl"
+#include "resources/cluster.glsl"
 #include "resources/invocation.glsl"
-#include "shared/layer_map.h"
+#include "resources/moving.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform utextureBuffer listStart;
 layout(set = 0, binding = 1) uniform utextureBuffer listBricks;
 layout(set = 0, binding = 2) uniform textureBuffer lensBoxes;
 layout(set = 0, binding = 3, r32ui) uniform writeonly uimageBuffer classes;
-layout(set = 0, binding = 4, rgba32f) uniform writeonly imageBuffer clusters; // from the list's start on
-layout(set = 0, binding = 5, r32ui) uniform writeonly uimageBuffer missed;    // two per list
+layout(set = 0, binding = 4, rgba32f) uniform imageBuffer clusters;        // from the list's start on
+layout(set = 0, binding = 5, r32ui) uniform writeonly uimageBuffer missed; // two per list
+layout(set = 0, binding = 6) uniform textureBuffer listMotions;
+layout(set = 0, binding = 7) uniform textureBuffer groupTimes; // first, last
+layout(set = 0, binding = 8) uniform textureBuffer motionTexels;
 layout(push_constant) uniform Push {
     MapLookupPush push;
 };
@@ -22,20 +26,38 @@ uint listBegin; // of this invocation's list
 Brick listedBrick(uint entry) {
     return brickOf(texelFetch(listBricks, int(entry)));
 }
-void keepCluster(uint i, Cluster cluster) {
-    imageStore(clusters, int(listBegin + i), vec4(cluster.slopeMin, cluster.slopeMax, cluster.level, 0.0));
+BrickMotion listedMotion(uint entry) {
+    const int i = int(entry) * kBrickMotionTexels;
+    return brickMotionOf(texelFetch(listMotions, i), texelFetch(listMotions, i + 1));
 }
-#include "lib/classify.glsl"
+void keepCluster(uint i, Cluster cluster) {
+    const int place = (kMoving ? kClusterTexels : 1) * int(listBegin + i);
+    imageStore(clusters, place, slopesOf(cluster));
+    if (kMoving) imageStore(clusters, place + 1, velocitiesOf(cluster));
+}
+Cluster keptCluster(uint i) {
+    const int place = kClusterTexels * int(listBegin + i);
+    return clusterOf(imageLoad(clusters, place), imageLoad(clusters, place + 1));
+}
+MotionLayout motionLayout;
+#include "lib/classify_moving.glsl"
 
 void main() {
     const uint list =
         linearInvocation(gl_WorkGroupID, gl_NumWorkGroups, gl_WorkGroupSize, gl_LocalInvocationIndex);
     if (list >= push.count) return;
     const uint tiles = uint(push.outputs.tileCount.x) * uint(push.outputs.tileCount.y);
-    const vec4 box = texelFetch(lensBoxes, int(push.firstGroup + list / tiles));
+    const int group = int(push.firstGroup + list / tiles);
+    const vec4 box = texelFetch(lensBoxes, group);
     listBegin = texelFetch(listStart, int(list)).x;
     const uint end = texelFetch(listStart, int(list) + 1).x;
-    const uint listClass = classOf(listBegin, end, box, push.lensScale);
+    uint listClass;
+    if (kMoving) {
+        motionLayout = READ_MOTION_LAYOUT;
+        listClass = movingClassOf(listBegin, end, box, texelFetch(groupTimes, group).xy, push.lensScale);
+    } else {
+        listClass = classOf(listBegin, end, box, push.lensScale);
+    }
     imageStore(classes, int(list), uvec4(listClass));
     const uvec4 left = uvec4((listClass & (kInFocusBit - 1u)) != 0u ? 0u : ~0u);
     imageStore(missed, 2 * int(list), left);

@@ -3,7 +3,8 @@
 // them meets nothing, it leaves the pixel, or the whole list, to reconstruct.comp.
 #extension GL_GOOGLE_include_directive : require
 #include "lib/output.glsl"
-#include "shared/layer_map.h"
+#include "resources/cluster.glsl"
+#include "resources/moving.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0) uniform utextureBuffer listStart;
@@ -14,6 +15,8 @@ layout(set = 0, binding = 4) uniform utextureBuffer pattern;
 layout(set = 0, binding = 5) uniform utextureBuffer classes;
 layout(set = 0, binding = 6, rgba32f) uniform writeonly imageBuffer dense;
 layout(set = 0, binding = 7, r32ui) uniform uimageBuffer missed; // two per list: a bit for each pixel
+layout(set = 0, binding = 8) uniform utextureBuffer mapMotions;  // of both layers
+layout(set = 0, binding = 9) uniform textureBuffer motionTexels;
 layout(push_constant) uniform Push {
     MapLookupPush push;
 };
@@ -22,10 +25,14 @@ layout(push_constant) uniform Push {
 uvec4 mapTexelAt(int i) {
     return texelFetch(texels, i);
 }
-Cluster clusterAt(int i) {
-    const vec3 cluster = texelFetch(clusters, i).xyz;
-    return Cluster(cluster.x, cluster.y, cluster.z);
+uvec4 mapMotionAt(int i) {
+    return texelFetch(mapMotions, i);
 }
+Cluster clusterAt(int i) {
+    if (!kMoving) return clusterOf(texelFetch(clusters, i), vec4(0.0));
+    return clusterOf(texelFetch(clusters, kClusterTexels * i), texelFetch(clusters, kClusterTexels * i + 1));
+}
+MotionLayout motionLayout;
 #include "lib/map_lookup.glsl"
 
 /// Leaves this pixel to the bins, or all of the list.
@@ -37,6 +44,7 @@ void miss(int list, uint clusterCount) {
 }
 
 void main() {
+    if (kMoving) motionLayout = READ_MOTION_LAYOUT;
     const uvec3 tile = gl_WorkGroupID;
     const ivec2 position = ivec2(gl_GlobalInvocationID.xy), size = push.outputs.regionSize;
     const int list =
@@ -57,13 +65,21 @@ void main() {
         const int i = sparse ? inOrder(texelFetch(pattern, firstOutput + rank)) : rank;
         vec4 value = vec4(vec3(0.0), kLeftOut);
         if (rank < taken) {
+            const vec4 point = texelFetch(lensPoints, firstOutput + i);
             Output o = outputOnFilm(vec2(pixel) + 0.5, vec2(0.0), 0.0, kWholePixel);
+            float time = point.z;
             if (inFocus) {
-                o = placed(pixel, texelFetch(pattern, firstOutput + i), seedOf(pixel, push.outputs.seed));
+                const uvec4 entry = texelFetch(pattern, firstOutput + i);
+                o = placed(pixel, entry, seedOf(pixel, push.outputs.seed));
                 sum = vec3(0.0);
+                if (kMoving)
+                    time = timeInShutter(pixel, firstOutput + i, entry.z, push.outputs.outputsPerPixel,
+                                         push.outputs.seed,
+                                         vec2(motionLayout.shutterOpen, motionLayout.shutterSpan)) -
+                           0.5;
             }
-            if (!look(o.xy, texelFetch(lensPoints, firstOutput + i).xy, clusterBegin, int(clusterCount),
-                      sum)) {
+            const Sight ray = Sight(o.xy, point.xy, time);
+            if (!look(ray, clusterBegin, int(clusterCount), sum)) {
                 miss(list, clusterCount);
                 return;
             }

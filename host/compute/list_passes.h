@@ -27,6 +27,8 @@ public:
     const std::vector<float>& lensBounds() const { return lensBounds_; }
     /// Of all groups: min, max.
     const Buffer& lensBoxes() const { return lensBoxes_; }
+    /// Of all groups: first, last, slot.
+    const Buffer& groupTimes() const { return groupTimes_; }
     /// The picture's MotionLayout.
     const Buffer& motionTexels() const { return motionTexels_; }
 

@@ -1,13 +1,18 @@
 #include "compute/map_passes.h"
 
+#include "compute/field_buffers.h"
+
 namespace slant {
 
-MapPasses::MapPasses(Device& device, const OutputPattern& pattern)
-    : device_(device), map_(device, "layer_map"), reduce_(device, "map_reduce"),
-      classify_(device, "list_classify"), lookup_(device, "map_lookup"),
-      texels_(device, TexelFormat::rgba32ui, 0),
+MapPasses::MapPasses(Device& device, const OutputPattern& pattern, const DeviceBins& bins)
+    : device_(device), map_(device, "layer_map", fieldConstants(false, bins.motion.moves())),
+      reduce_(device, "map_reduce", fieldConstants(false, bins.motion.moves())),
+      classify_(device, "list_classify", fieldConstants(false, bins.motion.moves())),
+      lookup_(device, "map_lookup", fieldConstants(false, bins.motion.moves())),
+      texels_(device, TexelFormat::rgba32ui, 0), motions_(device, TexelFormat::rgba32ui, 0),
+      motionTexels_(motionBuffer(device, bins.motion.layout)),
       lensPoints_(device, TexelFormat::rgba32f, pattern.entries.size()),
-      clusters_(device, TexelFormat::rgba32f, 0) {
+      clusters_(device, TexelFormat::rgba32f, 0), moves_(bins.motion.moves()) {
     lensPoints_.upload(lensPoints(pattern));
 }
 
@@ -16,6 +21,7 @@ void MapPasses::makeMap(CommandList& commands, const DeviceBins& bins, const Map
     layout_ = layout;
     const std::size_t base = levelBegin(layout_, 1), texels = levelBegin(layout_, layout_.levels);
     texels_ = Buffer(device_, TexelFormat::rgba32ui, texels);
+    motions_ = Buffer(device_, TexelFormat::rgba32ui, moves_ ? texels : 0);
 
     OutputPush push{};
     push.grid = bins.grid;
@@ -33,7 +39,7 @@ void MapPasses::makeMap(CommandList& commands, const DeviceBins& bins, const Map
     commands.dispatch(map_,
                       {bins.positions, bins.values, bins.cellStart, lists.start, lists.cellBases,
                        lists.bricks, bins.motions, lists.motions, listPasses.motionTexels(), texels_,
-                       counters, overflowList},
+                       counters, overflowList, motions_},
                       push, map_.gridOver(std::uint32_t(layout_.size.x), std::uint32_t(layout_.size.y)));
     commands.run();
     uint overflowed = 0;
@@ -44,12 +50,14 @@ void MapPasses::makeMap(CommandList& commands, const DeviceBins& bins, const Map
         const MapTexel texel = resolve(ivec2(int(index) % layout_.size.x, int(index) / layout_.size.x));
         const glm::uvec4 words = packTexel(texel, layout_.code);
         texels_.upload(std::span(&words, 1), index);
+        const glm::uvec4 motions = packMotions(texel, bins.motion.layout);
+        if (moves_) motions_.upload(std::span(&motions, 1), index);
     }
     for (int level = 1; level < layout_.levels; ++level) {
         const ivec2 size = levelSize(layout_, level);
         const ReducePush reduce{levelSize(layout_, level - 1), uint(levelBegin(layout_, level - 1)),
                                 uint(levelBegin(layout_, level)), layout_.surfaceGap, layout_.code};
-        commands.dispatch(reduce_, {texels_}, reduce,
+        commands.dispatch(reduce_, {texels_, motions_, motionTexels_}, reduce,
                           reduce_.gridOver(std::uint32_t(size.x), std::uint32_t(size.y)));
     }
     commands.run();
@@ -66,13 +74,16 @@ void MapPasses::record(CommandList& commands, const ListPasses& listPasses, cons
     push.groupBits = outputs.groupBits;
     push.lensScale = outputs.lensScale;
     push.sparseBits = outputs.takenBits;
-    if (clusters_.texels() < lists.bricks.texels())
-        clusters_ = Buffer(device_, TexelFormat::rgba32f, lists.bricks.texels());
+    const std::uint64_t clusterTexels = lists.bricks.texels() * (moves_ ? kClusterTexels : 1);
+    if (clusters_.texels() < clusterTexels) clusters_ = Buffer(device_, TexelFormat::rgba32f, clusterTexels);
     commands.dispatch(classify_,
-                      {lists.start, lists.bricks, listPasses.lensBoxes(), classes, clusters_, missed}, push,
-                      classify_.gridFor(push.count));
+                      {lists.start, lists.bricks, listPasses.lensBoxes(), classes, clusters_, missed,
+                       lists.motions, listPasses.groupTimes(), motionTexels_},
+                      push, classify_.gridFor(push.count));
     commands.dispatch(lookup_,
-                      {lists.start, clusters_, texels_, lensPoints_, pattern, classes, dense, missed}, push,
+                      {lists.start, clusters_, texels_, lensPoints_, pattern, classes, dense, missed,
+                       motions_, listPasses.motionTexels()},
+                      push,
                       {std::uint32_t(outputs.outputs.tileCount.x), std::uint32_t(outputs.outputs.tileCount.y),
                        outputs.groupCount});
 }

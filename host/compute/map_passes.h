@@ -11,7 +11,7 @@ namespace slant {
 
 class MapPasses {
 public:
-    MapPasses(Device& device, const OutputPattern& pattern);
+    MapPasses(Device& device, const OutputPattern& pattern, const DeviceBins& bins);
 
     /// Makes a map. `resolve` computes, on the CPU, a texel of level 0 that has more samples than a shader
     /// may loop over. Runs on `commands`, which must be empty, and leaves it empty.
@@ -26,12 +26,14 @@ public:
                 const Buffer& dense);
 
     const Buffer& texels() const { return texels_; }
+    const Buffer& motions() const { return motions_; }
 
 private:
     Device& device_;
     MapLayout layout_{};
     Pass map_, reduce_, classify_, lookup_;
-    Buffer texels_, lensPoints_, clusters_;
+    Buffer texels_, motions_, motionTexels_, lensPoints_, clusters_;
+    bool moves_;
 };
 
 } // namespace slant

@@ -31,7 +31,7 @@ void VulkanEngine::begin(PictureSetup setup) {
     if (bins_)
         picture_.emplace(BinPicture{ListPasses(device_, setup_.pattern, lensMap(), bins_->bins()),
                                     OutputPasses(device_, setup_.pattern, lensMap(), setup_.search),
-                                    MapPasses(device_, setup_.pattern)});
+                                    MapPasses(device_, setup_.pattern, bins_->bins())});
 }
 
 void VulkanEngine::beginWindow(const WindowSearch& search) {
@@ -164,6 +164,8 @@ std::vector<uint> VulkanEngine::words(Intermediate intermediate) const {
         return all(bins_->bins().brickMotions);
     case Intermediate::layerMap:
         return all(picture_->map.texels());
+    case Intermediate::layerMapMotions:
+        return all(picture_->map.motions());
     case Intermediate::lensBounds:
         return bits(picture_->lists.lensBounds());
     case Intermediate::listStart:

@@ -31,16 +31,19 @@ TileLists ChunkOutputs::listsWithin(float marginPx, std::vector<float>& bounds) 
         bounds = lensTileBounds(lens_, pattern_, first, groups_.size(), bins_.grid, layout, marginPx);
     GroupSight sight;
     sight.tilesOf = [&](uint brick, std::size_t group) {
-        if (lens_.empty())
-            return tilesSeeing(bins_, brick, layout, groups_[group], pattern_.times[first + group], marginPx);
-        return tilesOfCompoundLens(bins_, brick, layout, bounds, group,
-                                   moves ? pattern_.times[first + group] : vec2(0));
+        if (lens_.empty()) return tilesSeeing(bins_, brick, layout, groups_[group], timesOf(group), marginPx);
+        return tilesOfCompoundLens(bins_, brick, layout, bounds, group, timesOf(group));
     };
     if (moves)
         sight.brickAt = [&](std::size_t group, std::size_t rank) {
             return orders_.at(pattern_.slotOf(first + group), rank);
         };
     return makeTileLists(bins_, layout, groups_.size(), sight);
+}
+
+/// Of a group of the chunk.
+vec2 ChunkOutputs::timesOf(std::size_t group) const {
+    return pattern_.times.empty() ? vec2(0) : pattern_.times[std::size_t(chunk_.firstGroup) + group];
 }
 
 SearchContext ChunkOutputs::contextOf(const TileLists& in, std::size_t list) const {
@@ -94,7 +97,7 @@ ListClasses ChunkOutputs::lookUpMap(const LayerMap& map, Monitor& monitor) {
             for (std::size_t group = 0; group < groups_.size(); ++group) {
                 const std::size_t list = group * tiles + tile;
                 const ListClass listClass = classOfList(bins_, contextOf(lists, list).bricks, groups_[group],
-                                                        pattern_.lensScale, map.layout);
+                                                        timesOf(group), pattern_.lensScale, map.layout);
                 const std::uint64_t missed =
                     listClass.clusters.empty() ? ~0ull : takeList(map, group, corner, listClass);
                 classes.set(list, listClass.code(), missed);
@@ -132,8 +135,12 @@ bool ChunkOutputs::takePixel(const LayerMap& map, std::size_t group, ivec2 posit
         }
         const Output own = at(slot);
         const vec2 place = listClass.inFocus ? own.xy : vec2(slot.pixel) + 0.5f;
-        const vec2 uv(lensPoints_[std::size_t(chunk_.firstOutput + k)]);
-        const std::optional<vec3> rgb = lookThrough(map, listClass.clusters, place, uv);
+        const vec4 point = lensPoints_[std::size_t(chunk_.firstOutput + k)];
+        // In focus, motion alone blurs, along a line: outputs at the same times in every pixel would cut
+        // it into pieces.
+        const float time = listClass.inFocus && pattern_.shutter.moves ? own.t - 0.5f : point.z;
+        const std::optional<vec3> rgb =
+            lookThrough(map, bins_.motion.layout, listClass.clusters, place, vec2(point), time);
         if (!rgb) return false;
         sum += *rgb;
         if (listClass.inFocus && inRegion) dense.samples[slot.sample] = vec4(*rgb, own.positionCode);

@@ -47,6 +47,7 @@ private:
     int tileCount() const { return chunk_.layout.tileCount.x * chunk_.layout.tileCount.y; }
     std::uint64_t pixelsInside(ivec2 corner) const;
     TileLists listsWithin(float marginPx, std::vector<float>& bounds) const;
+    vec2 timesOf(std::size_t group) const;
     SearchContext contextOf(const TileLists& in, std::size_t list) const;
     Slot slotAt(ivec2 position, int output) const;
     Output at(const Slot& slot) const;

@@ -80,6 +80,8 @@ std::vector<uint> CpuEngine::words(Intermediate intermediate) const {
         return wordsOf(bins_->bins().brickMotions);
     case Intermediate::layerMap:
         return wordsOf(map_.texels);
+    case Intermediate::layerMapMotions:
+        return wordsOf(map_.motions);
     case Intermediate::lensBounds:
         return wordsOf(outputs_->lensBounds);
     case Intermediate::listStart:

@@ -23,6 +23,7 @@ enum class Intermediate {
     motions,
     brickMotions,
     layerMap,
+    layerMapMotions,
     lensBounds,
     listStart,
     listBricks,

@@ -27,14 +27,14 @@ int mapTexelsPerPixel(const LightField& field) {
     return sampleCounts(field).max <= 1 ? 1 : kMaxTexelsPerPixel;
 }
 
-float mapReach(const GridLayout& grid, float lensScale) {
-    return glm::min(lensScale * largestSlope(grid), kMaxReachPx);
+float mapReach(const GridLayout& grid, const MotionGrid& motion, float lensScale) {
+    return glm::min(lensScale * largestSlope(grid) + 0.5f * motion.fastestPx(), kMaxReachPx);
 }
 
-int mapRows(const Rect& frame, int texels, float reachPx, std::uint64_t bytes) {
+int mapRows(const Rect& frame, int texels, float reachPx, bool moves, std::uint64_t bytes) {
     const double margin = 2 * (double(reachPx) + 3 * kMapAlignPx);
     const double rowTexels = (frame.width() + margin) * texels * texels * 4 / 3; // with all levels
-    const double rowBytes = rowTexels * sizeof(glm::uvec4);
+    const double rowBytes = rowTexels * sizeof(glm::uvec4) * (moves ? 2 : 1);
     const double rows = double(bytes) / rowBytes - margin;
     if (rows < kTileSize)
         throw Error(
@@ -45,8 +45,8 @@ int mapRows(const Rect& frame, int texels, float reachPx, std::uint64_t bytes) {
     return int(std::min(rows, double(frame.height() + kTileSize)));
 }
 
-MapLayout chooseMap(const GridLayout& grid, const Rect& region, int texels, float reachPx,
-                    float spreadPerPx) {
+MapLayout chooseMap(const GridLayout& grid, const MotionGrid& motion, const Rect& region, int texels,
+                    float reachPx, float spreadPerPx) {
     const float margin = reachPx + float(2 * kMapAlignPx); // tiles beyond the region, the coarsest texels
     const vec2 extent = vec2(grid.brickCount * grid.cellsPerBrick) / grid.invCell;
     const vec2 low = glm::max(vec2(float(region.x0), float(region.y0)) - margin, grid.origin);
@@ -62,7 +62,7 @@ MapLayout chooseMap(const GridLayout& grid, const Rect& region, int texels, floa
     map.radiusPx = grid.radiusPx;
     map.tentPx = glm::max(1.f / float(texels), grid.radiusPx);
     map.levels = 1;
-    for (float spacing = float(texels) * spreadPerPx * largestSlope(grid);
+    for (float spacing = float(texels) * spreadPerPx * blurSpread(largestSlope(grid), motion.fastestPx());
          spacing >= kLevelSpacing && (1 << map.levels) <= kMapAlignPx * texels; spacing *= 0.5f)
         ++map.levels;
     return map;
@@ -98,8 +98,8 @@ vec2 texelCenter(const MapLayout& map, ivec2 texel) {
 
 namespace {
 
+template <bool kMoving>
 struct MapSweepKernels {
-    static constexpr bool kMoving = false;
 #include "reconstruct/bin_fetches.h"
 
     using LayerTexel = MapTexel;
@@ -107,8 +107,9 @@ struct MapSweepKernels {
     static LayerTexel noLayers() {
         return {};
     }
-    static void keepLayer(vec3 rgb, float coverage, float slope, const SlopeCode&, LayerTexel& texel) {
-        texel.layers[std::size_t(texel.count++)] = {rgb, coverage, slope};
+    static void keepLayer(vec3 rgb, float coverage, float slope, vec3 motion, const SlopeCode&,
+                          LayerTexel& texel) {
+        texel.layers[std::size_t(texel.count++)] = {rgb, coverage, slope, motion};
     }
 #include "lib/map_sweep.glsl"
 
@@ -116,11 +117,12 @@ struct MapSweepKernels {
 };
 
 /// The layers of the samples within `searchRadius`.
+template <typename Kernels>
 MapTexel resolveWithin(const SearchContext& context, const MapLayout& map, ivec2 place, float searchRadius) {
     const GridLayout& grid = context.bins.grid;
-    MapSweepKernels kernels{context};
-    MapSweepKernels::Sweep sweep = kernels.newSweep(grid, map.tentPx, float(map.texelsPerPixel), map.code);
-    kernels.forEachCandidate(grid, outputOnFilm(texelCenter(map, place), vec2(0), 0, 0), searchRadius,
+    Kernels kernels{context};
+    auto sweep = kernels.newSweep(grid, map.tentPx, float(map.texelsPerPixel), map.code);
+    kernels.forEachCandidate(grid, outputOnFilm(texelCenter(map, place), vec2(0), 0.5f, 0), searchRadius,
                              sweep.maxRadiusRatio, 0, kernels.listLength(), sweep);
     if (sweep.surface.count > 0) kernels.close(sweep, true);
     return sweep.texel;
@@ -129,11 +131,13 @@ MapTexel resolveWithin(const SearchContext& context, const MapLayout& map, ivec2
 } // namespace
 
 MapTexel resolveTexel(const SearchContext& context, const MapLayout& map, ivec2 texel) {
-    const MapTexel found = resolveWithin(context, map, texel, map.tentPx);
-    return found.count > 1 ? resolveWithin(context, map, texel, 2 * map.tentPx) : found;
+    const auto resolve = context.bins.motion.moves() ? resolveWithin<MapSweepKernels<true>>
+                                                     : resolveWithin<MapSweepKernels<false>>;
+    const MapTexel found = resolve(context, map, texel, map.tentPx);
+    return found.count > 1 ? resolve(context, map, texel, 2 * map.tentPx) : found;
 }
 
-void reduceLevel(LayerMap& map, int level) {
+void reduceLevel(LayerMap& map, int level, const MotionLayout& motion) {
     const MapLayout& layout = map.layout;
     const ivec2 below = levelSize(layout, level - 1), size = levelSize(layout, level);
     const std::size_t source = levelBegin(layout, level - 1), target = levelBegin(layout, level);
@@ -141,25 +145,51 @@ void reduceLevel(LayerMap& map, int level) {
         for (int y = int(first); y < int(last); ++y)
             for (int x = 0; x < size.x; ++x) {
                 Children children;
+                ChildMotions moving;
+                const std::size_t texel = target + std::size_t(y) * size.x + x;
                 for (int i = 0; i < 4; ++i) {
                     const std::size_t column = 2 * std::size_t(x) + std::size_t(i % 2),
                                       row = 2 * std::size_t(y) + std::size_t(i / 2);
-                    setChild(children, i, map.texels[source + row * below.x + column], layout.code);
+                    const std::size_t child = source + row * below.x + column;
+                    setChild(children, i, map.texels[child], layout.code);
+                    if (!map.motions.empty()) setMotion(moving, i, map.motions[child], motion);
                 }
-                map.texels[target + std::size_t(y) * size.x + x] =
-                    reduced(children, layout.surfaceGap, layout.code);
+                if (map.motions.empty()) {
+                    map.texels[texel] = reduced(children, layout.surfaceGap, layout.code);
+                    continue;
+                }
+                const MovingLayers layers =
+                    reducedMoving(children, moving, layout.surfaceGap, layout.code, motion);
+                map.texels[texel] = layers.words;
+                map.motions[texel] = layers.motions;
             }
     });
 }
+
+namespace {
+
+/// Lists for outputs through the lens's centre in the middle of the shutter.
+TileLists listsInTheMiddle(const Bins& bins, const OutputLayout& tiles, float marginPx) {
+    const LensBox center{vec2(0), vec2(0)};
+    const float middle = 0;
+    const BrickOrders orders(bins.motion, bins.brickRanks, {&middle, 1});
+    const auto tilesOf = [&](uint brick, std::size_t) {
+        return tilesSeeing(bins.bricks[brick], bins.grid, tiles, center, marginPx);
+    };
+    const auto brickAt = [&](std::size_t, std::size_t rank) { return orders.at(0, rank); };
+    return makeTileLists(bins, tiles, 1, {tilesOf, brickAt});
+}
+
+} // namespace
 
 LayerMap makeLayerMap(const Bins& bins, const MapLayout& layout) {
     LayerMap map;
     map.layout = layout;
     map.texels.resize(levelBegin(layout, layout.levels));
+    if (bins.motion.moves()) map.motions.resize(map.texels.size());
 
     const OutputLayout tiles = mapTiles(layout);
-    const LensBox center{vec2(0), vec2(0)};
-    const TileLists lists = makeTileLists(bins, tiles, {&center, 1}, 2 * layout.tentPx);
+    const TileLists lists = listsInTheMiddle(bins, tiles, 2 * layout.tentPx);
     parallelFor(0, std::size_t(layout.size.y), 8, [&](std::size_t first, std::size_t last) {
         for (int y = int(first); y < int(last); ++y)
             for (int x = 0; x < layout.size.x; ++x) {
@@ -167,11 +197,13 @@ LayerMap makeLayerMap(const Bins& bins, const MapLayout& layout) {
                 const std::size_t list = std::size_t(tile.y) * tiles.tileCount.x + tile.x;
                 const std::span<const uint> bricks(lists.bricks.data() + lists.start[list],
                                                    lists.start[list + 1] - lists.start[list]);
-                map.texels[std::size_t(y) * layout.size.x + x] =
-                    packTexel(resolveTexel({bins, bricks}, layout, ivec2(x, y)), layout.code);
+                const MapTexel texel = resolveTexel({bins, bricks}, layout, ivec2(x, y));
+                const std::size_t place = std::size_t(y) * layout.size.x + x;
+                map.texels[place] = packTexel(texel, layout.code);
+                if (bins.motion.moves()) map.motions[place] = packMotions(texel, bins.motion.layout);
             }
     });
-    for (int level = 1; level < layout.levels; ++level) reduceLevel(map, level);
+    for (int level = 1; level < layout.levels; ++level) reduceLevel(map, level, bins.motion.layout);
     return map;
 }
 

@@ -16,20 +16,22 @@ namespace slant {
 
 struct LayerMap {
     MapLayout layout{};
-    std::vector<glm::uvec4> texels; ///< packed, one level after the other
+    std::vector<glm::uvec4> texels;  ///< packed, one level after the other
+    std::vector<glm::uvec4> motions; ///< of the texels' layers, where things move; else empty
 };
 
-/// How far a surface may move over the lens, in pixels, for the map to serve it: as far as any surface does,
-/// up to a bound.
-float mapReach(const GridLayout& grid, float lensScale);
+/// How far a surface may move over lens and shutter, in pixels, for the map to serve it: as far as any
+/// surface does, up to a bound.
+float mapReach(const GridLayout& grid, const MotionGrid& motion, float lensScale);
 /// Texels along a pixel's side: one if no pixel has more than one sample.
 int mapTexelsPerPixel(const LightField& field);
 /// Rows of a band whose map fits into this many bytes. Throws Error(resources) if a row of tiles does not.
-int mapRows(const Rect& frame, int texels, float reachPx, std::uint64_t bytes);
+int mapRows(const Rect& frame, int texels, float reachPx, bool moves, std::uint64_t bytes);
 
 /// The texels that outputs of `region` can see, where the grid has samples. The coarsest level is that needed
 /// for lens positions `spreadPerPx` apart on a surface blurred by one pixel.
-MapLayout chooseMap(const GridLayout& grid, const Rect& region, int texels, float reachPx, float spreadPerPx);
+MapLayout chooseMap(const GridLayout& grid, const MotionGrid& motion, const Rect& region, int texels,
+                    float reachPx, float spreadPerPx);
 /// Texels of a level, and of all levels before it.
 ivec2 levelSize(const MapLayout& map, int level);
 std::size_t levelBegin(const MapLayout& map, int level);
@@ -45,6 +47,6 @@ OutputLayout mapTiles(const MapLayout& map);
 LayerMap makeLayerMap(const Bins& bins, const MapLayout& layout);
 
 /// Fills a level of the map from the one below.
-void reduceLevel(LayerMap& map, int level);
+void reduceLevel(LayerMap& map, int level, const MotionLayout& motion);
 
 } // namespace slant

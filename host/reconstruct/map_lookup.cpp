@@ -13,29 +13,41 @@ struct ClassifyKernels {
     std::span<const uint> bricks;
     const MapLayout& mapLayout;
     std::vector<Cluster>& clusters;
+    const MotionLayout& motionLayout = bins.motion.layout;
 
     const Brick& listedBrick(uint entry) const { return bins.bricks[bricks[entry]]; }
-    void keepCluster(uint, const Cluster& cluster) { clusters.push_back(cluster); }
-#include "lib/classify.glsl"
+    const BrickMotion& listedMotion(uint entry) const { return bins.brickMotions[bricks[entry]]; }
+    const Cluster& keptCluster(uint i) const { return clusters[i]; }
+    void keepCluster(uint i, const Cluster& cluster) {
+        if (i == clusters.size()) clusters.emplace_back();
+        clusters[i] = cluster;
+    }
+#include "lib/classify_moving.glsl"
 };
 
+template <bool kMoving>
 struct LookupKernels {
-    const std::vector<glm::uvec4>& texels;
+    const LayerMap& map;
+    const MotionLayout& motionLayout;
     std::span<const Cluster> clusters;
-    const MapLayout& mapLayout;
+    const MapLayout& mapLayout = map.layout;
 
-    const uvec4& mapTexelAt(int i) const { return texels[std::size_t(i)]; }
+    const uvec4& mapTexelAt(int i) const { return map.texels[std::size_t(i)]; }
+    const uvec4& mapMotionAt(int i) const { return map.motions[std::size_t(i)]; }
     const Cluster& clusterAt(int i) const { return clusters[std::size_t(i)]; }
 #include "lib/map_lookup.glsl"
 };
 
 } // namespace
 
-ListClass classOfList(const Bins& bins, std::span<const uint> bricks, const LensBox& lens, float lensScale,
-                      const MapLayout& map) {
+ListClass classOfList(const Bins& bins, std::span<const uint> bricks, const LensBox& lens, vec2 times,
+                      float lensScale, const MapLayout& map) {
     ListClass listClass;
-    const uint code = ClassifyKernels{bins, bricks, map, listClass.clusters}.classOf(
-        0, uint(bricks.size()), vec4(lens.min, lens.max), lensScale);
+    ClassifyKernels kernels{bins, bricks, map, listClass.clusters};
+    const vec4 box(lens.min, lens.max);
+    const uint code = bins.motion.moves()
+                          ? kernels.movingClassOf(0, uint(bricks.size()), box, times, lensScale)
+                          : kernels.classOf(0, uint(bricks.size()), box, lensScale);
     listClass.inFocus = (code & kInFocusBit) != 0;
     listClass.sparse = (code & kSparseBit) != 0;
     if ((code & (kInFocusBit - 1)) == 0) listClass.clusters.clear();
@@ -51,7 +63,9 @@ std::vector<vec4> lensPoints(const OutputPattern& pattern) {
         const vec2 middle = vec2(lensCell(entry)) + 0.5f;
         const vec2 cell = middle + vec2(0, (entry.w & 1u) != 0 ? stagger : -stagger);
         const vec2 uv = pattern.lensScale * pattern.aperture.at(cell * (2.f / vec2(pattern.lensCells)) - 1.f);
-        points.emplace_back(uv, 0, 0);
+        const float part = (float(entry.z) + 0.5f) / float(pattern.outputsPerPixel());
+        const float t = pattern.shutter.open + pattern.shutter.span * part;
+        points.emplace_back(uv, pattern.shutter.moves ? t - 0.5f : 0.f, 0);
     }
     return points;
 }
@@ -61,9 +75,13 @@ float spreadPerPx(const OutputPattern& pattern) {
     return pattern.lensScale * std::sqrt(area / float(pattern.outputsPerPixel()));
 }
 
-std::optional<vec3> lookThrough(const LayerMap& map, std::span<const Cluster> clusters, vec2 x, vec2 uv) {
+std::optional<vec3> lookThrough(const LayerMap& map, const MotionLayout& motion,
+                                std::span<const Cluster> clusters, vec2 x, vec2 uv, float time) {
     vec3 sum(0);
-    if (!LookupKernels{map.texels, clusters, map.layout}.look(x, uv, 0, int(clusters.size()), sum)) return {};
+    const auto look = [&](auto kernels) { return kernels.look({x, uv, time}, 0, int(clusters.size()), sum); };
+    const bool met = map.motions.empty() ? look(LookupKernels<false>{map, motion, clusters})
+                                         : look(LookupKernels<true>{map, motion, clusters});
+    if (!met) return {};
     return sum;
 }
 

@@ -25,18 +25,20 @@ struct ListClass {
     }
 };
 
-/// How to make the outputs of a list that look through `lens`, a part of the disc of radius `lensScale`.
-ListClass classOfList(const Bins& bins, std::span<const uint> bricks, const LensBox& lens, float lensScale,
-                      const MapLayout& map);
+/// How to make the outputs of a list that look through `lens`, a part of the disc of radius `lensScale`;
+/// where things move, from the first to the last of `times`.
+ListClass classOfList(const Bins& bins, std::span<const uint> bricks, const LensBox& lens, vec2 times,
+                      float lensScale, const MapLayout& map);
 
-/// Where the outputs of a pattern lie on the lens when they are taken from the map: in their cells, as evenly
-/// as possible.
+/// Where the outputs of a pattern lie on the lens, and when (from the middle of the shutter), if they are
+/// taken from the map: in their cells, as evenly as possible.
 std::vector<vec4> lensPoints(const OutputPattern& pattern);
 
 /// See MapLayout::spreadPerPx.
 float spreadPerPx(const OutputPattern& pattern);
 
-/// What is seen at raster position x through lens position uv; nothing where no surface is met.
-std::optional<vec3> lookThrough(const LayerMap& map, std::span<const Cluster> clusters, vec2 x, vec2 uv);
+/// What is seen at raster position x through lens position uv at `time`; nothing where no surface is met.
+std::optional<vec3> lookThrough(const LayerMap& map, const MotionLayout& motion,
+                                std::span<const Cluster> clusters, vec2 x, vec2 uv, float time);
 
 } // namespace slant

@@ -1,6 +1,7 @@
 // A texel of the layer map, and its 16 bytes (shaders/lib/map_texel.glsl).
 #pragma once
 #include "shared/layer_map.h"
+#include "shared/motion.h"
 
 #include <array>
 
@@ -10,6 +11,7 @@ struct MapLayer {
     vec3 rgb{0};        ///< mean radiance
     float coverage = 0; ///< of the texel, in [0, 1]
     float slope = kNoLayer;
+    vec3 motion{0}; ///< velocity, pixels per shutter; depth rate
 };
 
 struct MapTexel {
@@ -19,6 +21,8 @@ struct MapTexel {
 
 /// Two words per layer.
 glm::uvec4 packTexel(const MapTexel& texel, const SlopeCode& code);
+/// Two words per layer, 0 without one.
+glm::uvec4 packMotions(const MapTexel& texel, const MotionLayout& motion);
 MapTexel unpackTexel(const glm::uvec4& words, const SlopeCode& code);
 
 } // namespace slant

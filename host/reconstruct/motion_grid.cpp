@@ -19,9 +19,6 @@ constexpr double kMostClasses = 1 << 22;
 /// Share of samples at either end that do not count for the spread of ranks.
 constexpr double kOutliers = 0.01;
 constexpr std::size_t kSpreadSamples = 1 << 16;
-/// Two surfaces this far apart in velocity, in gaps of slope, can hide each other: a shutter is as long as
-/// half the lens's width (Lehtinen et al. 2011 take half the step in time, too).
-constexpr float kVelocityGap = 2;
 
 struct Spread {
     float low = 0, high = 0;
@@ -155,7 +152,7 @@ MotionGrid chooseMotionGrid(const SceneSideSamples& samples, const GridLayout& l
     const BinnedPoints binned(points, scope.region, marginPx(scope, density));
     grid.layout.c2 = samples.field().slopeModel.c2;
     grid.layout.shutterSpan = 1;
-    grid.layout.velocityGap = kVelocityGap * layout.surfaceGap;
+    grid.layout.brickPx = float(layout.cellsPerBrick) / layout.invCell;
     setRanks(points, layout.surfaceGap, grid.layout);
 
     Ranges ranges;

@@ -63,12 +63,14 @@ public:
         const GridLayout& grid = engine_.grid();
         const OutputPattern& pattern = begin(patternFor(largestSlope(grid), engine_.motion().fastestPx()));
         const int texels = mapTexelsPerPixel(field_);
-        const float reach = mapReach(grid, pattern.lensScale);
-        const int maxRows = usesMap ? mapRows(field_.frame, texels, reach, options_.memoryBytes / 2)
-                                    : std::numeric_limits<int>::max();
+        const MotionGrid& motion = engine_.motion();
+        const float reach = mapReach(grid, motion, pattern.lensScale);
+        const int maxRows =
+            usesMap ? mapRows(field_.frame, texels, reach, motion.moves(), options_.memoryBytes / 2)
+                    : std::numeric_limits<int>::max();
         const Plan plan = planOutputs(field_.frame, filter_, pattern, maxSamples_, maxRows);
         const auto beginBand = [&](const Band& band) {
-            if (usesMap) makeMap(chooseMap(grid, band.region, texels, reach, spreadPerPx(pattern)));
+            if (usesMap) makeMap(chooseMap(grid, motion, band.region, texels, reach, spreadPerPx(pattern)));
         };
         forEachChunk(plan, pattern, beginBand, [&](const Chunk& chunk) { return search(chunk, usesMap); });
     }
@@ -94,6 +96,7 @@ private:
         timer.items = levelBegin(layout, layout.levels);
         timer.bytes = engine_.peakBytes();
         observe(Intermediate::layerMap);
+        if (field_.moves()) observe(Intermediate::layerMapMotions);
     }
 
     /// Returns how many outputs were made.
@@ -177,8 +180,7 @@ Image PreparedField::picture(const LensView& view, ValuePlane plane, Monitor& mo
     case DenseSource::bins:
         // Through a compound lens every output has its own metric and its own part of a distorted picture:
         // there is no layer map for that.
-        picture.fromBins(traits.usesLayerMap && samples_.field().lensMap.empty() &&
-                         !samples_.field().moves());
+        picture.fromBins(traits.usesLayerMap && samples_.field().lensMap.empty());
         break;
     }
     engine_->addPassTimes(report);
@@ -220,23 +222,15 @@ void checkView(const ReconstructOptions& options, const LensView& view) {
 }
 
 const char* nameOf(Intermediate intermediate) {
-    constexpr std::array kNames{"bin.bricks",
-                                "bin.cells",
-                                "bin.positions",
-                                "bin.values",
-                                "bin.motions",
-                                "bin.brickMotions",
-                                "layer_map",
-                                "lists.lens",
-                                "lists.start",
-                                "lists.bricks",
-                                "list_classes",
-                                "missed",
-                                "window.positions",
-                                "window.values",
-                                "window.motions",
-                                "dense",
-                                "film"};
+    constexpr std::array kNames{"bin.bricks",    "bin.cells",
+                                "bin.positions", "bin.values",
+                                "bin.motions",   "bin.brickMotions",
+                                "layer_map",     "layer_map.motions",
+                                "lists.lens",    "lists.start",
+                                "lists.bricks",  "list_classes",
+                                "missed",        "window.positions",
+                                "window.values", "window.motions",
+                                "dense",         "film"};
     return kNames.at(std::size_t(intermediate));
 }
 

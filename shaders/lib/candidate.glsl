@@ -9,10 +9,14 @@ struct Candidate {
     vec2 offset;     // from the output, pixels of the film
     float distance2; // scaled as if its own radius were that of the search
     float slope;
-    float weight;  // see lib/occlusion.glsl
-    vec4 value;    // rgb; R over its own radius
-    vec2 velocity; // pixels per shutter
+    float weight; // see lib/occlusion.glsl
+    vec4 value;   // rgb; R over its own radius
+    vec3 motion;  // velocity, pixels per shutter; depth rate
 };
+
+KERNEL vec2 velocityOf(IN(Candidate) candidate) {
+    return vec2(candidate.motion);
+}
 
 /// Bounds of velocities.
 struct VelocityBox {

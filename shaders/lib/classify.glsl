@@ -13,7 +13,8 @@ struct Clusters {
     float slopeMin, slopeMax; // of the one that is open
 };
 
-/// Level of the map where lens positions are close enough to one another on a surface of this slope or more.
+/// Level of the map where lens positions are close enough to one another on a surface of this slope, or blur,
+/// or more.
 KERNEL float levelFor(float slope) {
     float spacing = float(mapLayout.texelsPerPixel) * mapLayout.spreadPerPx * max(slope, 0.0f);
     int level = 0;
@@ -29,9 +30,20 @@ KERNEL void close(INOUT(Clusters) found, float lensRadius, float lensWidth) {
     found.fits = found.fits && reach <= mapLayout.reachPx &&
                  (found.slopeMax - found.slopeMin) * lensRadius <= kWidestClusterPx &&
                  found.count < kMaxClusters;
-    const Cluster cluster = {found.slopeMin, found.slopeMax, levelFor(least)};
+    const Cluster cluster = {found.slopeMin, found.slopeMax, levelFor(least), 0.0f, vec2(0.0f), vec2(0.0f)};
     keepCluster(found.count, cluster);
     ++found.count;
+}
+
+/// From all clusters, and the finest own radius over R; `complete`: no brick was left out.
+KERNEL uint listClassOf(IN(Clusters) found, float finest, bool complete) {
+    const bool tooCoarse = finest * mapLayout.radiusPx * float(mapLayout.texelsPerPixel) < 1.0f;
+    const bool served = found.fits && found.count > 0u && complete &&
+                        !(found.inFocus && (tooCoarse || found.count > kMaxInFocusClusters));
+    uint listClass = served ? found.count : 0u;
+    if (served && found.inFocus) listClass |= kInFocusBit;
+    if (found.sparse && complete && found.count > 0u) listClass |= kSparseBit;
+    return listClass;
 }
 
 /// ListClass of the list [begin, end), seen through lens positions of `lensBox` (min, max), a part of the
@@ -55,11 +67,5 @@ KERNEL uint classOf(uint begin, uint end, vec4 lensBox, float lensScale) {
         found.slopeMax = max(found.slopeMax, brick.slopeMax);
     }
     if (end > begin) close(found, lensRadius, lensWidth);
-    const bool tooCoarse = finest * mapLayout.radiusPx * float(mapLayout.texelsPerPixel) < 1.0f;
-    const bool served = found.fits && found.count > 0u && last == end &&
-                        !(found.inFocus && (tooCoarse || found.count > kMaxInFocusClusters));
-    uint listClass = served ? found.count : 0u;
-    if (served && found.inFocus) listClass |= kInFocusBit;
-    if (found.sparse && last == end && end > begin) listClass |= kSparseBit;
-    return listClass;
+    return listClassOf(found, finest, last == end);
 }

@@ -5,6 +5,7 @@
 #define SLANT_LIB_MAP_TEXEL_GLSL
 #include "shared/kernel.h"
 #include "shared/layer_map.h"
+#include "shared/motion.h"
 
 SLANT_SHARED_BEGIN
 
@@ -52,6 +53,19 @@ KERNEL vec4 unpackLayer(uvec2 words) {
     return vec4(float(int(words.x & 2047u)) * scale, float(int(words.x >> 11 & 2047u)) * scale,
                 float(int(words.x >> 22)) * (2.0f * scale),
                 float(int(words.y >> 8 & 0xffu)) * (1.0f / 255.0f));
+}
+
+/// How a layer moves: two words, of velocity in 1 / kVelocitySteps of all that the field has, and depth rate.
+KERNEL uvec2 packMotion(vec3 motion, IN(MotionLayout) layout_) {
+    const vec2 perStep = kVelocitySteps * layout_.invVelocity / layout_.velocityCount;
+    const vec2 steps = (vec2(motion) - layout_.velocityMin) * perStep + 0.5f;
+    const uvec2 code = uvec2(clamp(steps, vec2(0.0f), vec2(kVelocitySteps)));
+    return uvec2(code.x | code.y << 16, floatBitsToUint(motion.z));
+}
+KERNEL vec3 unpackMotion(uvec2 words, IN(MotionLayout) layout_) {
+    const vec2 step_ = layout_.velocityCount * (1.0f / (kVelocitySteps * layout_.invVelocity));
+    const vec2 code = vec2(float(int(words.x & 0xffffu)), float(int(words.x >> 16)));
+    return vec3(layout_.velocityMin + code * step_, uintBitsToFloat(words.y));
 }
 
 SLANT_SHARED_END

@@ -65,6 +65,13 @@ KERNEL float blurOf(IN(MovingPoint) point) {
     return max(abs(point.trajectory.slope), max(half_.x, half_.y));
 }
 
+/// The slope of what keeps still and is blurred over as large an area as something of slope `slope` that
+/// moves at `speed`, pixels per shutter: pi slope^2 + 2 slope speed.
+KERNEL float blurSpread(float slope, float speed) {
+    const float s = max(slope, 0.0f);
+    return sqrt(s * (s + 0.636619772f * speed));
+}
+
 /// Class of a point among those that the table of layers has (host/reconstruct/motion_grid.h).
 KERNEL int layerClass(IN(MotionLayout) layout_, float rank, vec2 velocity) {
     const float bucket =

@@ -1,8 +1,8 @@
 // The front-most apparent surface within R of an output, tent-filtered, where it is the only one or its
 // samples surround the output. Anything else needs lib/visibility.glsl.
 //
-// What lib/search.glsl needs of a sweep; with kMoving and motionLayout as there. In C++ it is included in a
-// struct, after lib/candidate.glsl.
+// What lib/search.glsl needs of a sweep; with kMoving as there. In C++ it is included in a struct, after
+// lib/candidate.glsl.
 #include "lib/candidate.glsl"
 #include "shared/reconstruct.h"
 
@@ -24,8 +24,8 @@ KERNEL Sweep newSweep(float radiusPx, float surfaceGap) {
 KERNEL void visit(IN(Candidate) candidate, INOUT(Sweep) sweep) {
     bool parted = candidate.slope > sweep.slopeMax + sweep.surfaceGap;
     if (kMoving) {
-        parted = parted || isApart(sweep.velocities, candidate.velocity, motionLayout.velocityGap);
-        addVelocity(sweep.velocities, candidate.velocity);
+        parted = parted || isApart(sweep.velocities, velocityOf(candidate), kVelocityGap * sweep.surfaceGap);
+        addVelocity(sweep.velocities, velocityOf(candidate));
     }
     if (sweep.weightSum > 0.0f && parted) {
         sweep.running = false;

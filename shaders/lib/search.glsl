@@ -55,11 +55,11 @@ KERNEL int forEachCandidate(IN(GridLayout) grid, IN(Output) o, float radius, flo
             for (uint record = begin; record < end && sweep.running; ++record) {
                 IN(vec4) position = positionAt(record);
                 Trajectory trajectory = {vec2(position), position.z};
-                vec2 velocity = vec2(0.0f);
+                vec3 moving = vec3(0.0f);
                 if (moves) {
                     const Motion motion = motionOf(motionAt(record));
                     trajectory = atTime(trajectory, motion, time);
-                    velocity = motion.velocity;
+                    moving = vec3(motion.velocity, motion.depthRate);
                 }
                 vec2 offset = seenFrom(trajectory, o.uv) - o.xy;
                 if (o.onSceneSide) offset = onFilm(o, offset);
@@ -69,7 +69,7 @@ KERNEL int forEachCandidate(IN(GridLayout) grid, IN(Output) o, float radius, flo
                 const float radiusRatio = min(value.w, maxRadiusRatio);
                 const float scaled2 = distance2 * (radiusRatio * radiusRatio);
                 if (!(scaled2 < radius * radius)) continue;
-                const Candidate candidate = {offset, scaled2, trajectory.slope, position.w, value, velocity};
+                const Candidate candidate = {offset, scaled2, trajectory.slope, position.w, value, moving};
                 visit(candidate, sweep);
             }
         }

@@ -21,6 +21,11 @@ KERNEL Surface noSurface() {
     return surface;
 }
 
+/// In a tent over the base radius.
+KERNEL float innerWeightOf(IN(Candidate) candidate, float baseRadius) {
+    return candidate.weight * max(1.0f - sqrt(candidate.distance2) / baseRadius, 0.0f);
+}
+
 KERNEL void addSample(INOUT(Surface) surface, IN(Candidate) candidate, float baseRadius) {
     const vec3 rgb = vec3(candidate.value);
     const float distance_ = sqrt(candidate.distance2) / baseRadius;

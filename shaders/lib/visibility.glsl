@@ -7,8 +7,8 @@
 // and their number has no limit. And a surface that does not cover the output is not dropped but weighted by
 // its density, so that small and thin objects keep their brightness.
 //
-// What lib/search.glsl needs of a sweep; with kMoving and motionLayout as there. In C++ it is included in a
-// struct, after lib/surface.glsl.
+// What lib/search.glsl needs of a sweep; with kMoving as there. In C++ it is included in a struct, after
+// lib/surface.glsl.
 #include "lib/surface.glsl"
 
 struct Sweep {
@@ -29,7 +29,8 @@ KERNEL Sweep newSweep(IN(GridLayout) grid, float baseRadius) {
 
 KERNEL void visit(IN(Candidate) candidate, INOUT(Sweep) sweep) {
     bool parted = candidate.slope > sweep.surface.slopeMax + sweep.surfaceGap;
-    if (kMoving) parted = parted || isApart(sweep.velocities, candidate.velocity, motionLayout.velocityGap);
+    if (kMoving)
+        parted = parted || isApart(sweep.velocities, velocityOf(candidate), kVelocityGap * sweep.surfaceGap);
     if (sweep.surface.count > 0 && parted) {
         addSurface(sweep.composite, sweep.surface, sweep.fullWeight);
         sweep.surface = noSurface();
@@ -37,7 +38,7 @@ KERNEL void visit(IN(Candidate) candidate, INOUT(Sweep) sweep) {
         if (!sweep.running) return;
         sweep.velocities = noVelocities();
     }
-    if (kMoving) addVelocity(sweep.velocities, candidate.velocity);
+    if (kMoving) addVelocity(sweep.velocities, velocityOf(candidate));
     addSample(sweep.surface, candidate, sweep.baseRadius);
 }
 

@@ -65,10 +65,14 @@ struct MapLayout {
     float tentPx;   // width of a texel of level 0, which is searched for within twice that
 };
 
-/// A range of slopes, pixels per lens radius, and the level of the map where it is looked up.
+/// A range of slopes, pixels per lens radius, and the level of the map where it is looked up. Where things
+/// move also a range of velocities, pixels per shutter, and the middle of its depth rates.
 struct Cluster {
     float slopeMin, slopeMax, level;
+    float depthRate;
+    vec2 velocityLow, velocityHigh;
 };
+SLANT_SHARED_CONSTANT int kClusterTexels = 2;
 
 /// map_reduce: one level from the one below.
 struct ReducePush {

@@ -19,12 +19,16 @@ struct MotionLayout {
     float rankMin, invRank;
     vec2 velocityMin; // where the first class of velocities begins, pixels per shutter
     float invVelocity;
-    float velocityGap; // samples that differ by more, in pixels per shutter, are on different surfaces
+    float brickPx; // side of a brick
     vec2 velocityCount;
     float rankCount; // buckets and classes; those at the ends reach to infinity
     float timeSlots; // of OcclusionLayout's blocks
 };
 SLANT_SHARED_CONSTANT int kMotionTexels = 4;
+
+/// Two surfaces this far apart in velocity, pixels per shutter, over surfaceGap, can hide each other: a
+/// shutter is as long as half the lens is wide (Lehtinen et al. 2011 take half the step in time, too).
+SLANT_SHARED_CONSTANT float kVelocityGap = 2.0f;
 
 /// Bounds of a brick's motions. That of a sample is, relative to `center` in pixels,
 ///     p(time) = center + (p - center + time * drift) / (1 + time * depthRate).
@@ -42,6 +46,9 @@ SLANT_SHARED_CONSTANT int kPlacedMotionTexels = 2;
 /// Words of a brick's motion while its bounds are gathered, after kBoundWords: ordered bits of the least
 /// drift, the complement of those of the greatest, of x and y; the same for depthRate and rank.
 SLANT_SHARED_CONSTANT uint kMotionBoundWords = 8u;
+
+/// Steps of the velocities that a layer of the map has, over those of all classes.
+SLANT_SHARED_CONSTANT float kVelocitySteps = 65535.0f;
 
 SLANT_SHARED_END
 

@@ -37,6 +37,11 @@ TEST(MotionStability, isBetterThanBox) {
         const auto start2 = std::chrono::steady_clock::now();
         const Image frozen = reconstruct(still, Method::full);
         const double s2 = std::chrono::duration<double>(std::chrono::steady_clock::now() - start2).count();
+        const auto start3 = std::chrono::steady_clock::now();
+        const Image automatic = reconstruct(field, Method::automatic);
+        const double s3 = std::chrono::duration<double>(std::chrono::steady_clock::now() - start3).count();
+        const auto d = compare(automatic, truth);
+        std::printf("auto %.5f gain %.2f %.2f s\n", d.relMse, compare(box, truth).relMse / d.relMse, s3);
         const auto a = compare(box, truth), b = compare(full, truth), c = compare(frozen, truth);
         std::printf("spp %d box %.5f full %.5f still %.5f gain %.2f; %.2f s, %.2f s\n", spp, a.relMse,
                     b.relMse, c.relMse, a.relMse / b.relMse, s, s2);
