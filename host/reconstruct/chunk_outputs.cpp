@@ -139,8 +139,7 @@ bool ChunkOutputs::takePixel(const LayerMap& map, std::size_t group, ivec2 posit
         // In focus, motion alone blurs, along a line: outputs at the same times in every pixel would cut
         // it into pieces.
         const float time = listClass.inFocus && pattern_.shutter.moves ? own.t - 0.5f : point.z;
-        const std::optional<vec3> rgb =
-            lookThrough(map, bins_.motion.layout, listClass.clusters, place, vec2(point), time);
+        const std::optional<vec3> rgb = lookThrough(map, listClass.clusters, place, vec2(point), time);
         if (!rgb) return false;
         sum += *rgb;
         if (listClass.inFocus && inRegion) dense.samples[slot.sample] = vec4(*rgb, own.positionCode);

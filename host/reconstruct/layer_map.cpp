@@ -137,7 +137,7 @@ MapTexel resolveTexel(const SearchContext& context, const MapLayout& map, ivec2 
     return found.count > 1 ? resolve(context, map, texel, 2 * map.tentPx) : found;
 }
 
-void reduceLevel(LayerMap& map, int level, const MotionLayout& motion) {
+void reduceLevel(LayerMap& map, int level) {
     const MapLayout& layout = map.layout;
     const ivec2 below = levelSize(layout, level - 1), size = levelSize(layout, level);
     const std::size_t source = levelBegin(layout, level - 1), target = levelBegin(layout, level);
@@ -152,14 +152,14 @@ void reduceLevel(LayerMap& map, int level, const MotionLayout& motion) {
                                       row = 2 * std::size_t(y) + std::size_t(i / 2);
                     const std::size_t child = source + row * below.x + column;
                     setChild(children, i, map.texels[child], layout.code);
-                    if (!map.motions.empty()) setMotion(moving, i, map.motions[child], motion);
+                    if (!map.motions.empty()) setMotion(moving, i, map.motions[child], map.motionLayout);
                 }
                 if (map.motions.empty()) {
                     map.texels[texel] = reduced(children, layout.surfaceGap, layout.code);
                     continue;
                 }
                 const MovingLayers layers =
-                    reducedMoving(children, moving, layout.surfaceGap, layout.code, motion);
+                    reducedMoving(children, moving, layout.surfaceGap, layout.code, map.motionLayout);
                 map.texels[texel] = layers.words;
                 map.motions[texel] = layers.motions;
             }
@@ -187,6 +187,7 @@ LayerMap makeLayerMap(const Bins& bins, const MapLayout& layout) {
     map.layout = layout;
     map.texels.resize(levelBegin(layout, layout.levels));
     if (bins.motion.moves()) map.motions.resize(map.texels.size());
+    map.motionLayout = bins.motion.layout;
 
     const OutputLayout tiles = mapTiles(layout);
     const TileLists lists = listsInTheMiddle(bins, tiles, 2 * layout.tentPx);
@@ -203,7 +204,7 @@ LayerMap makeLayerMap(const Bins& bins, const MapLayout& layout) {
                 if (bins.motion.moves()) map.motions[place] = packMotions(texel, bins.motion.layout);
             }
     });
-    for (int level = 1; level < layout.levels; ++level) reduceLevel(map, level, bins.motion.layout);
+    for (int level = 1; level < layout.levels; ++level) reduceLevel(map, level);
     return map;
 }
 

@@ -18,6 +18,7 @@ struct LayerMap {
     MapLayout layout{};
     std::vector<glm::uvec4> texels;  ///< packed, one level after the other
     std::vector<glm::uvec4> motions; ///< of the texels' layers, where things move; else empty
+    MotionLayout motionLayout{};     ///< how these are packed
 };
 
 /// How far a surface may move over lens and shutter, in pixels, for the map to serve it: as far as any
@@ -47,6 +48,6 @@ OutputLayout mapTiles(const MapLayout& map);
 LayerMap makeLayerMap(const Bins& bins, const MapLayout& layout);
 
 /// Fills a level of the map from the one below.
-void reduceLevel(LayerMap& map, int level, const MotionLayout& motion);
+void reduceLevel(LayerMap& map, int level);
 
 } // namespace slant

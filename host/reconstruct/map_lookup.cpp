@@ -28,9 +28,9 @@ struct ClassifyKernels {
 template <bool kMoving>
 struct LookupKernels {
     const LayerMap& map;
-    const MotionLayout& motionLayout;
     std::span<const Cluster> clusters;
     const MapLayout& mapLayout = map.layout;
+    const MotionLayout& motionLayout = map.motionLayout;
 
     const uvec4& mapTexelAt(int i) const { return map.texels[std::size_t(i)]; }
     const uvec4& mapMotionAt(int i) const { return map.motions[std::size_t(i)]; }
@@ -75,12 +75,12 @@ float spreadPerPx(const OutputPattern& pattern) {
     return pattern.lensScale * std::sqrt(area / float(pattern.outputsPerPixel()));
 }
 
-std::optional<vec3> lookThrough(const LayerMap& map, const MotionLayout& motion,
-                                std::span<const Cluster> clusters, vec2 x, vec2 uv, float time) {
+std::optional<vec3> lookThrough(const LayerMap& map, std::span<const Cluster> clusters, vec2 x, vec2 uv,
+                                float time) {
     vec3 sum(0);
     const auto look = [&](auto kernels) { return kernels.look({x, uv, time}, 0, int(clusters.size()), sum); };
-    const bool met = map.motions.empty() ? look(LookupKernels<false>{map, motion, clusters})
-                                         : look(LookupKernels<true>{map, motion, clusters});
+    const bool met = map.motions.empty() ? look(LookupKernels<false>{map, clusters})
+                                         : look(LookupKernels<true>{map, clusters});
     if (!met) return {};
     return sum;
 }

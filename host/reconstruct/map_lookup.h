@@ -37,8 +37,9 @@ std::vector<vec4> lensPoints(const OutputPattern& pattern);
 /// See MapLayout::spreadPerPx.
 float spreadPerPx(const OutputPattern& pattern);
 
-/// What is seen at raster position x through lens position uv at `time`; nothing where no surface is met.
-std::optional<vec3> lookThrough(const LayerMap& map, const MotionLayout& motion,
-                                std::span<const Cluster> clusters, vec2 x, vec2 uv, float time);
+/// What is seen at raster position x through lens position uv at `time` from the middle of the shutter;
+/// nothing where no surface is met.
+std::optional<vec3> lookThrough(const LayerMap& map, std::span<const Cluster> clusters, vec2 x, vec2 uv,
+                                float time = 0);
 
 } // namespace slant

@@ -30,8 +30,7 @@ KERNEL void close(INOUT(Clusters) found, float lensRadius, float lensWidth) {
     found.fits = found.fits && reach <= mapLayout.reachPx &&
                  (found.slopeMax - found.slopeMin) * lensRadius <= kWidestClusterPx &&
                  found.count < kMaxClusters;
-    const Cluster cluster = {found.slopeMin, found.slopeMax, levelFor(least), 0.0f, vec2(0.0f), vec2(0.0f)};
-    keepCluster(found.count, cluster);
+    keepCluster(found.count, stillCluster(found.slopeMin, found.slopeMax, levelFor(least)));
     ++found.count;
 }
 

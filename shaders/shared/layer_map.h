@@ -74,6 +74,17 @@ struct Cluster {
 };
 SLANT_SHARED_CONSTANT int kClusterTexels = 2;
 
+/// Of what keeps still.
+SLANT_SHARED_FUNCTION Cluster stillCluster(float slopeMin, float slopeMax, float level) {
+    Cluster cluster;
+    cluster.slopeMin = slopeMin;
+    cluster.slopeMax = slopeMax;
+    cluster.level = level;
+    cluster.depthRate = 0.0f;
+    cluster.velocityLow = cluster.velocityHigh = vec2(0.0f);
+    return cluster;
+}
+
 /// map_reduce: one level from the one below.
 struct ReducePush {
     ivec2 size;  // texels of the level below

@@ -228,8 +228,8 @@ struct Made {
         const SceneSideSamples samples(field);
         bins = binSamples(samples, {kFrame});
         takeValues(bins, samples, ValuePlane::radiance);
-        map = makeLayerMap(
-            bins, chooseMap(bins.grid, kFrame, mapTexelsPerPixel(field), mapReach(bins.grid, 1), 0.5f));
+        map = makeLayerMap(bins, chooseMap(bins.grid, {}, kFrame, mapTexelsPerPixel(field),
+                                           mapReach(bins.grid, {}, 1), 0.5f));
     }
 };
 

@@ -29,8 +29,8 @@ struct Fixture {
         const SceneSideSamples samples(field);
         bins = binSamples(samples, {kFrame});
         takeValues(bins, samples, ValuePlane::radiance);
-        map = makeLayerMap(
-            bins, chooseMap(bins.grid, kFrame, mapTexelsPerPixel(field), mapReach(bins.grid, 1), 0.5f));
+        map = makeLayerMap(bins, chooseMap(bins.grid, {}, kFrame, mapTexelsPerPixel(field),
+                                           mapReach(bins.grid, {}, 1), 0.5f));
         allBricks.resize(bins.bricks.size());
         std::iota(allBricks.begin(), allBricks.end(), 0u);
     }
@@ -47,7 +47,7 @@ struct Fixture {
     ListClass listClass(const LensBox& lens, float reachPx) const {
         MapLayout layout = map.layout;
         layout.reachPx = reachPx;
-        return classOfList(bins, allBricks, lens, 1, layout);
+        return classOfList(bins, allBricks, lens, vec2(0), 1, layout);
     }
 };
 
@@ -124,7 +124,7 @@ TEST(Layers, clustersAreToldApart) {
     EXPECT_FALSE(listClass.inFocus);
     EXPECT_TRUE(f.listClass(lens, 8).clusters.empty()) << "reaches further than the map";
     EXPECT_FALSE(f.listClass({vec2(0), vec2(0.5f)}, 8).clusters.empty());
-    EXPECT_TRUE(classOfList(f.bins, {}, lens, 1, f.map.layout).clusters.empty());
+    EXPECT_TRUE(classOfList(f.bins, {}, lens, vec2(0), 1, f.map.layout).clusters.empty());
 }
 
 TEST(Layers, whatIsInFocusIsServedWhereSamplesAreNoFinerThanTexels) {
@@ -156,7 +156,7 @@ TEST(Layers, raysFindTheirSurfaces) {
 
 TEST(Layers, whereTheMapHasNothingThereIsNoAnswer) {
     const Fixture f(halfPlane());
-    const Cluster elsewhere{20, 21, 0};
+    const Cluster elsewhere = stillCluster(20, 21, 0);
     EXPECT_FALSE(lookThrough(f.map, {&elsewhere, 1}, vec2(20, 20), vec2(0.1f)));
 }
 

@@ -87,7 +87,7 @@ TEST(MapLookup, seesAPlaneAtThePinholePositionOfTheRay) {
     Draw draw;
     double shifted = 0;
     for (int i = 0; i < 4000; ++i) {
-        const Cluster cluster{slope, slope, float(i % 4)};
+        const Cluster cluster = stillCluster(slope, slope, float(i % 4));
         const vec2 x = draw.place(4, 48), uv = draw.place(-1, 1);
         const std::optional<vec3> got = lookThrough(map, {&cluster, 1}, x, uv);
         ASSERT_TRUE(got);
@@ -105,7 +105,7 @@ TEST(MapLookup, compositesTwoLayersFrontToBack) {
     Draw draw;
     for (int i = 0; i < 4000; ++i) {
         const float level = float(i % 3);
-        const std::vector<Cluster> clusters = {{-4, -4, level}, {9, 9, level}};
+        const std::vector<Cluster> clusters = {stillCluster(-4, -4, level), stillCluster(9, 9, level)};
         const vec2 x = draw.place(4, 48), uv = draw.place(-1, 1);
         const glm::dvec3 back = exactRamp(glm::dvec2(x) - 9.0 * glm::dvec2(uv));
         const std::optional<vec3> got = lookThrough(map, clusters, x, uv);
@@ -127,7 +127,8 @@ TEST(MapLookup, edgesAreAsWideAsATexel) {
     int partly = 0;
     for (int i = 0; i < 8000; ++i) {
         const int level = i % 3;
-        const std::vector<Cluster> clusters = {{-4, -4, float(level)}, {9, 9, float(level)}};
+        const std::vector<Cluster> clusters = {stillCluster(-4, -4, float(level)),
+                                               stillCluster(9, 9, float(level))};
         const vec2 x = draw.place(4, 48), uv = draw.place(-1, 1);
         const glm::dvec3 back = exactRamp(glm::dvec2(x) - 9.0 * glm::dvec2(uv));
         const double beyond = (double(x.x) + 4 * double(uv.x) - 20) * 2 / (1 << level); // texels
@@ -150,7 +151,7 @@ TEST(MapLookup, settlesWhereASlantedSurfaceHasTheSlopeOfTheRay) {
     double worst = 0, worstUnsettled = 0;
     for (int i = 0; i < 4000; ++i) {
         const vec2 x = draw.place(10, 40), uv = draw.place(-1, 1);
-        const Cluster cluster{float(a - 32 * b), float(a + 96 * b), 0};
+        const Cluster cluster = stillCluster(float(a - 32 * b), float(a + 96 * b), 0);
         const double px = (double(x.x) - a * double(uv.x)) / (1 + b * double(uv.x));
         const double slope = a + b * px;
         const glm::dvec2 p(px, double(x.y) - slope * double(uv.y));
@@ -200,7 +201,8 @@ Classified classified(const Bins& bins, std::span<const uint> bricks, const Lens
         const double spacing = map.texelsPerPixel * double(map.spreadPerPx) * least;
         const int halvings =
             spacing < double(kLevelSpacing) ? 0 : 1 + int(std::log2(spacing / double(kLevelSpacing)));
-        found.clusters.push_back({float(low), float(high), float(std::min(halvings, map.levels - 1))});
+        found.clusters.push_back(
+            stillCluster(float(low), float(high), float(std::min(halvings, map.levels - 1))));
         found.inFocus |= least < double(kMinSlope);
         found.sparse &= most * std::max(size.x, size.y) <= double(kSparsePx);
         found.served &= most * lensRadius <= double(map.reachPx);
@@ -232,7 +234,7 @@ TEST(Classify, clustersAreThoseOfAllListedSamples) {
             const LightField field = synthetic::sample(layers, frame, 15, spp, 3);
             const Bins bins = binSamples(SceneSideSamples(field), {frame});
             MapLayout map =
-                chooseMap(bins.grid, frame, mapTexelsPerPixel(field), mapReach(bins.grid, 1), 0.5f);
+                chooseMap(bins.grid, {}, frame, mapTexelsPerPixel(field), mapReach(bins.grid, {}, 1), 0.5f);
             map.reachPx = min(map.reachPx, 30.f);
             const OutputPattern pattern = makeOutputPattern(512, 14);
             OutputLayout tiles{};
@@ -244,7 +246,7 @@ TEST(Classify, clustersAreThoseOfAllListedSamples) {
                 const std::span<const uint> bricks(all.bricks.data() + all.start[list],
                                                    all.start[list + 1] - all.start[list]);
                 const LensBox& lens = pattern.groups[list / perGroup];
-                const ListClass got = classOfList(bins, bricks, lens, 1, map);
+                const ListClass got = classOfList(bins, bricks, lens, vec2(0), 1, map);
                 const Classified expected = classified(bins, bricks, lens, map);
                 ++lists;
                 ASSERT_EQ(!got.clusters.empty(), expected.served) << list;
