@@ -9,16 +9,18 @@ import sys
 from pathlib import Path
 
 sys.dont_write_bytecode = True
-from generator import dragon, files, foliage, lights, row, spheres  # noqa: E402
+from generator import butterflies, crossing, dolly, dragon, files, foliage, lights, row, spheres, spin  # noqa: E402
 
 
 def main():
     target = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).resolve().parent
-    for folder in ("meshes", "spheres", "row", "lights", "foliage"):
+    scenes = {scene.__name__.split(".")[-1]: scene
+              for scene in (spheres, row, lights, foliage, spin, crossing, dolly, butterflies)}
+    for folder in ("meshes", *scenes):
         (target / folder).mkdir(parents=True, exist_ok=True)
     files.write_ply(target / "meshes" / "dragon.ply", dragon.dragon())
-    for scene in (spheres, row, lights, foliage):
-        scene.write(target / scene.__name__.split(".")[-1])
+    for folder, scene in scenes.items():
+        scene.write(target / folder)
 
 
 main()

@@ -15,11 +15,12 @@ constexpr int kBatch = kFilmBlock;
 } // namespace
 
 BruteForce bruteForce(const Scene& scene, const Tracer& tracer, std::uint64_t seed, Monitor& monitor,
-                      bool auxiliary, bool moving) {
+                      bool auxiliary) {
     BruteForce result;
+    const bool withMotion = auxiliary && tracer.moves();
     FilmBuffer film(scene.film.crop, makeFilterTable(scene.filter));
     const std::vector<AuxiliarySet> sets =
-        auxiliary ? auxiliarySets(true, moving) : std::vector<AuxiliarySet>();
+        auxiliary ? auxiliarySets(true, withMotion) : std::vector<AuxiliarySet>();
     std::vector<FilmBuffer> setFilms(sets.size(), film);
     LightField batch;
     batch.frame = scene.film.crop;
@@ -27,8 +28,7 @@ BruteForce bruteForce(const Scene& scene, const Tracer& tracer, std::uint64_t se
     monitor.beginStage("trace", batch.bounds.area() * std::uint64_t(scene.pixelSamples), "samples");
     for (int first = 0; first < scene.pixelSamples; first += kBatch) {
         batch.samplesPerPixel = std::min(kBatch, scene.pixelSamples - first);
-        batch.resize(batch.bounds.area() * std::size_t(batch.samplesPerPixel), auxiliary,
-                     auxiliary && moving);
+        batch.resize(batch.bounds.area() * std::size_t(batch.samplesPerPixel), auxiliary, withMotion);
         tracer.trace(batch.bounds, first, batch.samplesPerPixel, scene.pixelSamples, seed, spansOf(batch),
                      monitor);
         result.defects.add(sanitize(batch));

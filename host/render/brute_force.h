@@ -18,9 +18,8 @@ struct BruteForce {
 
 /// The same pattern and pixel filter as method `box` with scene.pixelSamples samples, but any number of them
 /// in bounded memory. One stage "trace" of the monitor.
-/// With `auxiliary` the image has the channels of render/auxiliary.h, too; those of motion if the scene is
-/// `moving`.
+/// With `auxiliary` the image has the channels of render/auxiliary.h, too; those of motion if anything moves.
 BruteForce bruteForce(const Scene& scene, const Tracer& tracer, std::uint64_t seed, Monitor& monitor,
-                      bool auxiliary = false, bool moving = false);
+                      bool auxiliary = false);
 
 } // namespace slant

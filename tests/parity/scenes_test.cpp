@@ -60,7 +60,7 @@ TEST_P(SceneParity, runsRepeat) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneParity,
                          testing::Values("spheres", "row", "lights", "foliage", "indirect", "row-dgauss",
-                                         "row-fisheye"),
+                                         "row-fisheye", "spin", "crossing", "dolly", "butterflies"),
                          [](const auto& scene) {
                              std::string name = scene.param;
                              std::ranges::replace(name, '-', '_');

@@ -98,6 +98,35 @@ TEST_F(Auxiliary, boxIsTheReferenceInEveryBit) {
     EXPECT_TRUE(box.pixels == reference.pixels);
 }
 
+/// A wall at depth 5 that moves by 0.1 to the right and 0.05 down, on a picture of 2 / 16 per pixel at
+/// depth 1.
+TEST_F(Auxiliary, theReferenceHasTheMotionToo) {
+    test::writeText(
+        dir_.file("wall.pbrt"),
+        "Film \"rgb\" \"integer xresolution\" 16 \"integer yresolution\" 16\n"
+        "Sampler \"independent\" \"integer pixelsamples\" 43\n"
+        "Camera \"perspective\" \"float fov\" 90 \"float lensradius\" 0.1 \"float focaldistance\" 3\n"
+        "WorldBegin\n"
+        "ActiveTransform EndTime Translate 0.1 -0.05 0 ActiveTransform All\n"
+        "Shape \"trianglemesh\" \"point3 P\" [-20 -20 5  20 -20 5  20 20 5  -20 20 5]"
+        " \"integer indices\" [0 1 2  0 2 3]\n");
+    Channels all = kAll;
+    all.insert(all.end(), {"forward.u", "forward.v"});
+    const auto picture = [&](std::vector<std::string> words, const std::string& output) {
+        words.insert(words.end(), {dir_.file("wall.pbrt"), "--auxiliary", "--float"});
+        run(words, output);
+        return readExr(dir_.file(output)).image;
+    };
+    const Image reference = picture({"reference"}, "reference.exr");
+    EXPECT_EQ(reference.channels, all);
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 16; ++x) {
+            EXPECT_NEAR(reference.at(x, y, reference.channel("forward.u")), 0.1 * 8 / 5, 1e-3);
+            EXPECT_NEAR(reference.at(x, y, reference.channel("forward.v")), -0.05 * 8 / 5, 1e-3);
+        }
+    EXPECT_TRUE(picture({"render", "--method", "box", "--spp", "43"}, "box.exr").pixels == reference.pixels);
+}
+
 TEST_F(Auxiliary, fieldsWithoutAlbedoHaveCoverageAndDepth) {
     run({"sample", SLANT_SOURCE_DIR "/scenes/spheres.pbrt", "--crop", "190,210,100,110", "--spp", "1"},
         "field.exr");

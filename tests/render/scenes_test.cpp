@@ -3,6 +3,7 @@
 #include "scene/read_scene.h"
 #include "support/run_program.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <set>
@@ -44,8 +45,9 @@ TEST(Scenes, theGeneratorMakesTheCommittedBytes) {
 }
 
 TEST(Scenes, areSmallAndReadWithoutAWarning) {
-    for (const std::string name : {"spheres", "row", "lights", "foliage", "indirect", "row-dgauss",
-                                   "row-wide", "row-telephoto", "row-fisheye"}) {
+    for (const std::string name :
+         {"spheres", "row", "lights", "foliage", "indirect", "row-dgauss", "row-wide", "row-telephoto",
+          "row-fisheye", "spin", "crossing", "dolly", "butterflies"}) {
         const Scene scene = load(name);
         EXPECT_EQ(scene.film.xResolution, 480) << name;
         EXPECT_EQ(scene.film.yResolution, 270) << name;
@@ -58,16 +60,30 @@ TEST(Scenes, areSmallAndReadWithoutAWarning) {
     }
 }
 
-TEST(Scenes, spheresIsShadedWithoutNoise) {
-    const Scene scene = load("spheres");
-    ASSERT_EQ(scene.lights.size(), 1u);
-    EXPECT_EQ(scene.lights[0].kind, LightKind::distant);
-    EXPECT_TRUE(scene.areaLights.empty());
-    EXPECT_EQ(scene.maxDepth, 1);
-    EXPECT_EQ(scene.filter.kind, FilterKind::box);
-    int balls = 0;
-    for (const Shape& shape : scene.shapes) balls += shape.kind == ShapeKind::sphere;
-    EXPECT_EQ(balls, 100);
+TEST(Scenes, spheresAndThoseThatMoveAreShadedWithoutNoise) {
+    for (const std::string name : {"spheres", "spin", "crossing", "dolly", "butterflies"}) {
+        const Scene scene = load(name);
+        ASSERT_EQ(scene.lights.size(), 1u) << name;
+        EXPECT_EQ(scene.lights[0].kind, LightKind::distant) << name;
+        EXPECT_TRUE(scene.areaLights.empty()) << name;
+        EXPECT_EQ(scene.maxDepth, 1) << name;
+        EXPECT_EQ(scene.filter.kind, FilterKind::box) << name;
+    }
+}
+
+TEST(Scenes, haveWhatTheyAreFor) {
+    const auto movers = [](const Scene& scene) {
+        return std::ranges::count_if(scene.shapes, [](const Shape& s) { return s.worldFromObject.moves(); });
+    };
+    const Scene spheres = load("spheres");
+    EXPECT_EQ(movers(spheres), 0);
+    EXPECT_EQ(std::ranges::count(spheres.shapes, ShapeKind::sphere, &Shape::kind), 100);
+    EXPECT_EQ(movers(load("spin")), 10) << "the parts of the wheel";
+    EXPECT_EQ(movers(load("crossing")), 20);
+    EXPECT_EQ(movers(load("butterflies")), 2 * 210) << "wings";
+    const Scene dolly = load("dolly");
+    EXPECT_EQ(movers(dolly), 0);
+    EXPECT_TRUE(dolly.camera.worldFromCamera.moves());
 }
 
 } // namespace
