@@ -37,8 +37,20 @@ struct MovingLayer {
     Layer middle;
     glm::vec3 motion{0};
 };
-/// Slopes of moving layers.
+/// Through which their slopes tell their depth.
 inline constexpr SlopeModel kMovingLens{-30, 15};
+
+/// How moving layers are looked at.
+struct MovingView {
+    bool pinhole = false;      ///< through the lens's centre, and with slopes of 0
+    float open = 0, close = 1; ///< when samples are taken
+    bool stands = false;       ///< samples have no motion, as if nothing moved
+};
+
+struct MovingLayers {
+    std::vector<MovingLayer> layers;
+    MovingView view;
+};
 
 /// Adds the nearest layer (they are ordered front to back) that is hit, as a sample.
 inline void look(LightField& field, const std::vector<Layer>& layers, glm::vec2 xy, glm::vec2 uv, float t) {
@@ -58,26 +70,29 @@ inline void look(LightField& field, const std::vector<Layer>& layers, glm::vec2 
 }
 
 /// The same for layers that move, in any order: the nearest at its time counts.
-inline void look(LightField& field, const std::vector<MovingLayer>& layers, glm::vec2 xy, glm::vec2 uv,
-                 float t) {
-    LightFieldSample s{xy.x, xy.y, uv.x, uv.y, t, INFINITY, kMovingLens.c2, 0};
+inline void look(LightField& field, const MovingLayers& moving, glm::vec2 xy, glm::vec2 uv, float t) {
+    const MovingView& view = moving.view;
+    const SlopeModel lens = view.pinhole ? SlopeModel{0, 0} : kMovingLens;
+    if (view.pinhole) uv = glm::vec2(0);
+    t = view.open + t * (view.close - view.open);
+    LightFieldSample s{xy.x, xy.y, uv.x, uv.y, t, INFINITY, lens.c2, 0};
     glm::vec3 radiance(0), motion(0);
-    for (const MovingLayer& layer : layers) {
+    for (const MovingLayer& layer : moving.layers) {
         const float depth = 1 + (t - 0.5f) * layer.motion.z;
         const float w = kMovingLens.c1 / (layer.middle.slope - kMovingLens.c2);
-        const glm::vec2 seen = xy - kMovingLens(w * depth) * uv;
+        const glm::vec2 seen = xy - lens(w * depth) * uv;
         const glm::vec2 p = seen * depth - (t - 0.5f) * glm::vec2(layer.motion);
         if (!(w * depth < s.w) || !layer.middle.inside(p)) continue;
         s.w = w * depth;
-        s.slope = kMovingLens(s.w);
+        s.slope = lens(s.w);
         s.alpha = 1;
         motion = layer.motion * w;
         radiance = layer.middle.colour(p);
     }
-    field.slopeModel = kMovingLens;
+    field.slopeModel = lens;
     field.samples.push_back(s);
     field.radiance.push_back(radiance);
-    field.motion.push_back(motion);
+    if (!view.stands) field.motion.push_back(motion);
 }
 
 /// Adds a pixel's samples: a sqrt(spp)-ish grid in the pixel, jittered, and a shuffled one on the lens.
@@ -132,8 +147,8 @@ inline LightField sample(const std::vector<Layer>& layers, Rect frame, int overs
         layers, frame, overscan, [=](int, int) { return spp; }, seed, aperture);
 }
 inline LightField sampleMoving(const std::vector<MovingLayer>& layers, Rect frame, int overscan, int spp,
-                               std::uint32_t seed) {
-    return sampleLayers(layers, frame, overscan, [=](int, int) { return spp; }, seed, {});
+                               std::uint32_t seed, const MovingView& view = {}) {
+    return sampleLayers(MovingLayers{layers, view}, frame, overscan, [=](int, int) { return spp; }, seed, {});
 }
 
 /// A number that is the same for a pixel in every run.
@@ -179,6 +194,16 @@ inline std::vector<Layer> discsOverChecks() {
 inline std::vector<MovingLayer> movingDiscs() {
     const std::vector<Layer> layers = discsOverChecks();
     return {{layers[0], {14, 5, -0.3f}}, {layers[1], {-20, 12, 0}}, {layers[2], {6, 0, 0.1f}}};
+}
+
+/// Discs that come from behind others, through the plane in focus, and end in front of them; before a
+/// background that keeps still.
+inline std::vector<MovingLayer> overtakingDiscs() {
+    const std::vector<Layer> layers = discsOverChecks();
+    Layer coming = layers[1], going = layers[0];
+    coming.slope = 1;
+    going.slope = 0.4f;
+    return {{coming, {-9, 4, -0.9f}}, {going, {11, 3, 0.2f}}, {layers[2], {}}};
 }
 
 } // namespace slant::synthetic
