@@ -1,8 +1,10 @@
 // Trajectories in time (lib/motion.glsl), the bounds of bricks that move and the lists made from them, the
 // motion of the layer map, and the pattern of moving fields: against the formula of lightfield.h in double
 // precision.
+#include "lib/map_reduce.glsl"
 #include "lightfield/motion.h"
 #include "reconstruct/candidates.h"
+#include "reconstruct/map_lookup.h"
 #include "reconstruct/output_pattern.h"
 #include "reconstruct/points.h"
 #include "reconstruct/tile_lists.h"
@@ -215,6 +217,71 @@ TEST(MotionKernel, layersOfTheMapKeepTheirMotion) {
         ASSERT_EQ(back.z, motion.z);
     }
     EXPECT_NEAR(unpackMotion(packMotion({1e9f, -1e9f, 0}, layout), layout).x, 50, 1e-4);
+}
+
+/// Layers of one slope that move differently stay apart on coarser levels; those that move alike become one.
+TEST(MotionKernel, coarserLevelsPartWhatMovesDifferently) {
+    MotionLayout motion{};
+    motion.velocityMin = {-64, -64};
+    motion.invVelocity = 0.25f;
+    motion.velocityCount = {32, 32};
+    const SlopeCode code{-10, 0.01f, 100};
+    const vec3 still(0), fast(30, -20, 0.25f);
+    Children children;
+    ChildMotions moving;
+    for (int i = 0; i < 4; ++i) {
+        MapTexel texel;
+        texel.layers[0] = {vec3(1, 0, 0), 0.5f, 2, i < 2 ? fast : still};
+        texel.layers[1] = {vec3(0, 1, 0), 1, 2.5f, i < 2 ? still : fast};
+        texel.count = i == 3 ? 1 : 2;
+        setChild(children, i, packTexel(texel, code), code);
+        setMotion(moving, i, packMotions(texel, motion), motion);
+    }
+    const MovingLayers coarse = reducedMoving(children, moving, 1, code, motion);
+    const MapTexel texel = unpackTexel(coarse.words, code);
+    ASSERT_EQ(texel.count, 2);
+    const vec3 front = unpackMotion(uvec2(coarse.motions), motion),
+               back = unpackMotion(uvec2(coarse.motions.z, coarse.motions.w), motion);
+    EXPECT_NEAR(front.x, 30, 0.01);
+    EXPECT_NEAR(front.z, 0.25, 0.01);
+    EXPECT_NEAR(back.y, 0, 0.01);
+    EXPECT_NEAR(texel.layers[0].coverage, (0.5 + 0.5 + 1) / 4, 0.01) << "two at 2, one at 2.5";
+    EXPECT_NEAR(texel.layers[1].coverage, (1 + 1 + 0.5 + 0.5) / 4, 0.01);
+    EXPECT_NEAR(texel.layers[0].slope, (2 * 1 + 2.5) / 2, 0.01) << "weighted by coverage";
+}
+
+/// Lists of bricks as (slope, velocity along x), and the clusters that they make.
+TEST(MotionKernel, clustersAreOfSlopeAndVelocity) {
+    struct Case {
+        std::vector<vec2> bricks;
+        std::size_t clusters; ///< 0: the map does not serve it
+    };
+    MapLayout map{};
+    map.surfaceGap = 1;
+    map.reachPx = 100;
+    map.texelsPerPixel = 2;
+    map.levels = 1;
+    map.radiusPx = 1;
+    for (const Case& c :
+         {Case{{{5, 0}}, 1},
+          {{{5, 0}, {5.2f, 30}}, 2},
+          {{{5, 0}, {9, 0}}, 2},
+          {{{5, 0}, {5.2f, 30}, {5.4f, 1}}, 2},   // what keeps still lies behind, too
+          {{{5, 0}, {5.2f, 3}, {5.4f, 1.5f}}, 0}, // joined by the third, after they were parted
+          {{{5, 0}, {5.2f, 1.5f}, {5.4f, 3}}, 1},
+          {{{5, 250}}, 0}}) { // beyond the map
+        Bins bins;
+        std::vector<uint> ids;
+        for (const vec2 brick : c.bricks) {
+            ids.push_back(uint(bins.bricks.size()));
+            bins.bricks.push_back({0, uint(kRadiusSteps) << 12, brick.x, brick.x});
+            bins.brickMotions.push_back({vec2(brick.y, 0), vec2(brick.y, 0), vec2(0), vec2(0)});
+        }
+        bins.motion.layers = {0};
+        const LensBox lens{vec2(-1), vec2(1)};
+        EXPECT_EQ(classOfList(bins, ids, lens, vec2(-0.5f, 0.5f), 1, map).clusters.size(), c.clusters)
+            << c.bricks.size() << " bricks, the last at " << c.bricks.back().y;
+    }
 }
 
 TEST(MotionKernel, blurOfDiscAndLineCoversTheirSum) {
