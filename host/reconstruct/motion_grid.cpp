@@ -11,10 +11,10 @@ namespace slant {
 namespace {
 
 /// Ranks of a scene spread over at least so many buckets, even if its lens is small.
-constexpr float kLeastRanks = 64;
+constexpr float kLeastRanks = 16;
 constexpr float kMostRanks = 4096;
 /// Width of a class of velocities, pixels per shutter, if there is room for so many layers.
-constexpr float kVelocityStep = 4;
+constexpr float kVelocityStep = 8;
 constexpr double kMostClasses = 1 << 22;
 /// Share of samples at either end that do not count for the spread of ranks.
 constexpr double kOutliers = 0.01;
