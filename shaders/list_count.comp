@@ -1,5 +1,6 @@
 #version 460
-// How many tiles can see a brick through a lens group; the prefix sum of it says where list_emit writes.
+// Which tiles can see a brick through a lens group, and how many: the prefix sum of that says where list_emit
+// writes.
 #extension GL_GOOGLE_include_directive : require
 #include "lib/grid.glsl"
 #include "resources/invocation.glsl"
@@ -13,6 +14,7 @@ layout(set = 0, binding = 4) uniform textureBuffer brickMotions;
 layout(set = 0, binding = 5) uniform utextureBuffer brickOrder; // of each slot of time
 layout(set = 0, binding = 6) uniform textureBuffer groupTimes;  // first, last, slot
 layout(set = 0, binding = 7) uniform textureBuffer motionTexels;
+layout(set = 0, binding = 8, rgba32ui) uniform writeonly uimageBuffer ranges; // first, last tile; brick
 layout(push_constant) uniform Push {
     OutputPush push;
 };
@@ -36,6 +38,9 @@ void main() {
             tilesOfBrick(brick, push.grid, push.outputs, box, times.xy, int(group), push.marginPx);
         const ivec2 size = max(range.zw - range.xy, ivec2(0));
         tiles = uint(size.x * size.y);
+        const uvec4 packed = uvec4(max(range, ivec4(0)));
+        imageStore(ranges, int(i),
+                   uvec4(packed.x | packed.y << 16, packed.z | packed.w << 16, uint(brick), 0u));
     }
     imageStore(counts, int(i), uvec4(tiles));
 }

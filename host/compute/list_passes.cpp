@@ -50,8 +50,8 @@ ListPasses::ListPasses(Device& device, const OutputPattern& pattern, const LensM
 ListPasses::ListPasses(Device& device, const OutputPattern& pattern, const LensMap& lens,
                        const MotionGrid& motion, const BrickOrders& orders)
     : device_(device), pattern_(pattern), lens_(lens),
-      count_(device, "list_count", fieldConstants(!lens.empty(), motion.moves())),
-      emit_(device, "list_emit", fieldConstants(!lens.empty(), motion.moves())), start_(device, "list_start"),
+      count_(device, "list_count", fieldConstants(!lens.empty(), motion.moves())), emit_(device, "list_emit"),
+      start_(device, "list_start"),
       gather_(device, "list_gather", fieldConstants(!lens.empty(), motion.moves())), scan_(device, 1),
       sort_(device, 1), lensBoxes_(uploadBoxes(device, pattern.groups)),
       brickOrder_(uploadOrders(device, orders)), groupTimes_(uploadTimes(device, pattern, orders)),
@@ -65,10 +65,11 @@ DeviceLists ListPasses::run(CommandList& commands, const DeviceBins& bins, Outpu
     Buffer lensTiles(device_, TexelFormat::r32f, lensBounds_.size());
     lensTiles.upload(lensBounds_);
     push.count = push.groupCount * bins.brickTotal;
-    Buffer offsets(device_, TexelFormat::r32ui, push.count + 1);
+    Buffer offsets(device_, TexelFormat::r32ui, push.count + 1),
+        ranges(device_, TexelFormat::rgba32ui, push.count);
     commands.dispatch(count_,
                       {bins.bricks, lensBoxes_, offsets, lensTiles, bins.brickMotions, brickOrder_,
-                       groupTimes_, motionTexels_},
+                       groupTimes_, motionTexels_, ranges},
                       push, count_.gridFor(push.count + 1));
     scan_.reserve(push.count + 1);
     scan_.record(commands, offsets, push.count + 1);
@@ -79,10 +80,7 @@ DeviceLists ListPasses::run(CommandList& commands, const DeviceBins& bins, Outpu
     const uint lists = push.groupCount * uint(push.outputs.tileCount.x) * uint(push.outputs.tileCount.y);
     PairBuffers pairs(device_, entries), scratch(device_, entries);
     push.count = entries;
-    commands.dispatch(emit_,
-                      {bins.bricks, lensBoxes_, offsets, pairs.keys, pairs.values, lensTiles,
-                       bins.brickMotions, brickOrder_, groupTimes_, motionTexels_},
-                      push, emit_.gridFor(entries));
+    commands.dispatch(emit_, {ranges, offsets, pairs.keys, pairs.values}, push, emit_.gridFor(entries));
     sort_.reserve(entries);
     const bool inScratch =
         &sort_.record(commands, pairs, scratch, entries, std::bit_width(lists - 1)) == &scratch;

@@ -22,12 +22,17 @@ KERNEL Cluster clusterOfBrick(IN(Brick) brick, IN(BrickMotion) motion) {
     return cluster;
 }
 
-/// Whether two clusters are too near to tell their layers apart.
+/// Whether slopes do not tell the layers of two clusters apart.
+KERNEL bool slopesMeet(IN(Cluster) a, IN(Cluster) b) {
+    const float gap = mapLayout.surfaceGap;
+    return a.slopeMin - b.slopeMax <= gap && b.slopeMin - a.slopeMax <= gap;
+}
+
+/// Whether velocities do not either.
 KERNEL bool meet(IN(Cluster) a, IN(Cluster) b) {
-    const float gap = mapLayout.surfaceGap, velocityGap = kVelocityGap * gap;
     const vec2 behind = a.velocityLow - b.velocityHigh, before = b.velocityLow - a.velocityHigh;
-    return a.slopeMin - b.slopeMax <= gap && b.slopeMin - a.slopeMax <= gap &&
-           max(max(behind.x, behind.y), max(before.x, before.y)) <= velocityGap;
+    return slopesMeet(a, b) &&
+           max(max(behind.x, behind.y), max(before.x, before.y)) <= kVelocityGap * mapLayout.surfaceGap;
 }
 
 KERNEL Cluster joined(IN(Cluster) a, IN(Cluster) b) {
@@ -87,8 +92,15 @@ KERNEL uint movingClassOf(uint begin, uint end, vec4 lensBox, vec2 times, float 
     }
     for (uint i = 0u; i < found.count; ++i) {
         Cluster cluster = keptCluster(i);
-        for (uint k = i + 1u; k < found.count; ++k) found.fits = found.fits && !meet(cluster, keptCluster(k));
+        bool alone = true;
+        for (uint k = 0u; k < found.count; ++k) {
+            if (k == i) continue;
+            const Cluster other = keptCluster(k);
+            found.fits = found.fits && !meet(cluster, other);
+            alone = alone && !slopesMeet(cluster, other);
+        }
         judge(found, cluster, sight);
+        if (alone) cluster.level = -1.0f - cluster.level;
         keepCluster(i, cluster);
     }
     return listClassOf(found, finest, last == end);
