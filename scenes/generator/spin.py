@@ -36,10 +36,10 @@ def write(folder):
     lines = ["# Made by generate.py: the leg, so close before the wheel that its shadow hides behind it; the axle's cap."]
     lines += material("leg", (1, 14), (0.55, 0.60, 0.64), (0.16, 0.24, 0.32))
     lines += ['NamedMaterial "leg"',
-              'Shape "trianglemesh" "point3 P" [-0.16 -3 5.98  0.16 -3 5.98  0.07 0 5.98  -0.07 0 5.98]'
+              'Shape "trianglemesh" "point3 P" [-0.16 -3 5.996  0.16 -3 5.996  0.07 0 5.996  -0.07 0 5.996]'
               ' "point2 uv" [0 0  1 0  1 1  0 1] "integer indices" [0 2 1  0 3 2]',
               'Material "diffuse" "rgb reflectance" [0.8 0.78 0.72]',
-              'AttributeBegin  Translate 0 0 5.97  Shape "disk" "float radius" 0.11  AttributeEnd']
+              'AttributeBegin  Translate 0 0 5.993  Shape "disk" "float radius" 0.11  AttributeEnd']
     (folder / "stand.pbrt").write_text("\n".join(lines) + "\n")
 
 
