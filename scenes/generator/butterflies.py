@@ -3,9 +3,11 @@
 import math
 from random import Random
 from .files import write_png
+from .geometry import dot, lerp, mul, sub, unit
 
 FOCAL_PX = 135 / math.tan(math.radians(15))
 COUNT = 210
+LIGHT = unit((-0.2, 0.6, -1.0))  # as in butterflies.pbrt
 PAIRS = [((0.88, 0.42, 0.05), (0.07, 0.05, 0.05)), ((0.90, 0.78, 0.22), (0.16, 0.10, 0.07)),
          ((0.12, 0.36, 0.78), (0.04, 0.05, 0.12)), ((0.92, 0.90, 0.84), (0.20, 0.18, 0.20)),
          ((0.72, 0.14, 0.10), (0.08, 0.05, 0.06)), ((0.48, 0.24, 0.62), (0.92, 0.86, 0.70))]
@@ -24,41 +26,59 @@ def write(folder):
             lines.append(f'Texture "{pattern}{k}" "spectrum" "mix" "rgb tex1" {first} "rgb tex2" {second}'
                          f' "texture amount" "{pattern}"')
     rng = Random(20110808)
-    swarm = sorted((butterfly(rng, k) for k in range(COUNT)), key=lambda item: -item[0])
-    lines += [line for _, item in swarm for line in item]
+    swarm = []
+    while len(swarm) < COUNT:
+        item = Butterfly(rng, len(swarm))
+        if not any(shades(item, other) for other in swarm):
+            swarm.append(item)
+    for item in sorted(swarm, key=lambda item: -item.depth):
+        lines += item.lines(rng)
     (folder / "swarm.pbrt").write_text("\n".join(lines) + "\n")
 
 
-def butterfly(rng, k):
-    """Its depth, and its lines of the scene."""
-    u = rng.random()
-    # A few near the camera, more than half around the focus, the rest beyond.
-    z = 3.2 + 1.3 * u if k < 8 else 6 + 5 * u if k < 130 else 11 + 11 * u
-    at = ((2 * rng.random() - 1) * 265, (2 * rng.random() - 1) * 150)
-    way_angle = 2 * math.pi * rng.random()
-    way_px = 4 + 56 * rng.random() ** 1.8 * min(1.0, 10 / z)
-    towards = (2 * rng.random() - 1) * 0.09 * z
-    size = (0.26 + 0.12 * rng.random()) * (0.7 if z < 5 else 1)
-    start, end = (
-        tuple((p + half * way_px * d) * depth / FOCAL_PX for p, d in zip(at, (math.cos(way_angle), math.sin(way_angle))))
-        + (depth,)
-        for half, depth in ((-0.5, z - towards / 2), (0.5, z + towards / 2)))
-    # Backs to the camera, heads along the way, more or less; beating between nearly flat and half closed.
-    head = math.degrees(way_angle) - 90 + 50 * (rng.random() - 0.5)
-    pitch, roll = 50 * (rng.random() - 0.5), 50 * (rng.random() - 0.5)
-    beat = [8 + 12 * rng.random(), 34 + 24 * rng.random()]
-    rng.shuffle(beat)
-    texture = f"{('veins', 'spots')[rng.randrange(2)]}{rng.randrange(len(PAIRS))}"
-    lines = [f'AttributeBegin  Material "diffuse" "texture reflectance" "{texture}"',
-             "Translate {:.3f} {:.3f} {:.3f}".format(*start)
-             + "  ActiveTransform EndTime  Translate {:.3f} {:.3f} {:.3f}".format(*(b - a for a, b in zip(start, end)))
-             + f"  ActiveTransform All  Rotate {head:.0f} 0 0 1  Rotate {pitch:.0f} 1 0 0  Rotate {roll:.0f} 0 1 0"]
-    for side in (1, -1):
-        points = "  ".join(f"{side * size * x:.3f} {size * y:.3f} 0" for x, y in WING)
-        lines.append(f"AttributeBegin  ActiveTransform StartTime  Rotate {side * beat[0]:.0f} 0 1 0"
-                     f"  ActiveTransform EndTime  Rotate {side * beat[1]:.0f} 0 1 0"
-                     f'  Shape "bilinearmesh" "point3 P" [{points}]  AttributeEnd')
-    return z, lines + ["AttributeEnd"]
+class Butterfly:
+    def __init__(self, rng, k):
+        u = rng.random()
+        # A few near the camera, more than half around the focus, the rest beyond.
+        z = 2.7 + 1.5 * u if k < 8 else 6.3 + 4 * u if k < 0.55 * COUNT else 10 + 12 * u
+        at = ((2 * rng.random() - 1) * 265, (2 * rng.random() - 1) * 150)
+        self.way_angle = 2 * math.pi * rng.random()
+        way_px = 4 + 56 * rng.random() ** 1.8 * min(1.0, 10 / z)
+        towards = (2 * rng.random() - 1) * 0.09 * z
+        way = (math.cos(self.way_angle), math.sin(self.way_angle))
+        self.depth, self.size = z, 0.22 + 0.09 * rng.random()
+        self.ends = [
+            tuple((p + half * way_px * d) * depth / FOCAL_PX for p, d in zip(at, way)) + (depth,)
+            for half, depth in ((-0.5, z - towards / 2), (0.5, z + towards / 2))]
+        places = [lerp(*self.ends, t) for t in (0.0, 0.25, 0.5, 0.75, 1.0)]
+        self.shadows = [sub(place, mul(LIGHT, dot(place, LIGHT))) for place in places]
+
+    def lines(self, rng):
+        # Heads along the way, more or less, and leaning towards the camera.
+        head = math.degrees(self.way_angle) - 90 + 50 * (rng.random() - 0.5)
+        pitch, roll = -18 - 22 * rng.random(), 50 * (rng.random() - 0.5)
+        beat = [8 + 12 * rng.random(), 34 + 24 * rng.random()]
+        rng.shuffle(beat)
+        texture = f"{('veins', 'spots')[rng.randrange(2)]}{rng.randrange(len(PAIRS))}"
+        way = sub(self.ends[1], self.ends[0])
+        lines = [f'AttributeBegin  Material "diffuse" "texture reflectance" "{texture}"',
+                 "Translate {:.3f} {:.3f} {:.3f}  ActiveTransform EndTime".format(*self.ends[0])
+                 + "  Translate {:.3f} {:.3f} {:.3f}  ActiveTransform All".format(*way)
+                 + f"  Rotate {head:.0f} 0 0 1  Rotate {pitch:.0f} 1 0 0  Rotate {roll:.0f} 0 1 0"]
+        for side in (1, -1):
+            points = "  ".join(f"{side * self.size * x:.3f} {self.size * y:.3f} 0" for x, y in WING)
+            # Normals along the body, about which wings turn: their beat does not change how bright they are.
+            lines.append(f"AttributeBegin  ActiveTransform StartTime  Rotate {side * beat[0]:.0f} 0 1 0"
+                         f"  ActiveTransform EndTime  Rotate {side * beat[1]:.0f} 0 1 0"
+                         f'  Shape "bilinearmesh" "point3 P" [{points}]'
+                         ' "normal3 N" [0 1 0  0 1 0  0 1 0  0 1 0]  AttributeEnd')
+        return lines + ["AttributeEnd"]
+
+
+def shades(a, b):
+    """Whether the shadow of one meets the other while the shutter is open: it would move otherwise than both."""
+    reach = 1.05 * (a.size + b.size)
+    return any(math.dist(p, q) < reach for p, q in zip(a.shadows, b.shadows))
 
 
 def veins(x, y):
@@ -79,10 +99,10 @@ def spots(x, y):
 def meadow(rng):
     """pixel(x, y) of a picture that repeats: flowers and dark patches on green."""
     flowers = []
-    for _ in range(150):
+    for _ in range(45):
         colour = [(0.93, 0.90, 0.80), (0.90, 0.72, 0.25), (0.75, 0.25, 0.22), (0.45, 0.40, 0.75), (0.12, 0.30, 0.16),
                   (0.16, 0.36, 0.14)][rng.randrange(6)]
-        flowers.append((256 * rng.random(), 128 * rng.random(), 2.5 + 5.5 * rng.random(), colour))
+        flowers.append((256 * rng.random(), 128 * rng.random(), 2.5 + 4 * rng.random(), colour))
 
     def pixel(x, y):
         colour = (0.36, 0.52, 0.24) if (x // 8 + y // 8) % 2 else (0.28, 0.45, 0.22)
