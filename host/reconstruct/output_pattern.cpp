@@ -57,6 +57,8 @@ LensBox cellsOf(const OutputPattern& pattern, std::size_t first, std::size_t las
 
 /// Pixels over which what a group sees may spread: sharing pays off up to a brick.
 constexpr float kSpreadPx = 16;
+/// Where things move the fastest decide, and few are; with 32 or 64 `crossing` and `dolly` are slower.
+constexpr float kMovingSpreadPx = 48;
 
 /// Bits of the size of a group, and of the number of slots of time.
 struct GroupBits {
@@ -85,7 +87,9 @@ GroupBits groupBitsFor(int outputsPerPixel, float slopePx, float motionPx) {
     GroupBits bits;
     while ((2 << bits.size) <= std::min(outputsPerPixel, kMaxGroupSize)) {
         const GroupBits wider = withSlots(bits.size + 1, outputsPerPixel, slopePx, motionPx);
-        if (bits.size > 0 && !(spreadOf(wider, outputsPerPixel, slopePx, motionPx) <= kSpreadPx)) break;
+        if (bits.size > 0 && !(spreadOf(wider, outputsPerPixel, slopePx, motionPx) <=
+                               (motionPx > 0 ? kMovingSpreadPx : kSpreadPx)))
+            break;
         bits = wider;
     }
     return bits.size > 0 ? bits : withSlots(0, outputsPerPixel, slopePx, motionPx);

@@ -56,10 +56,10 @@ KERNEL void judge(INOUT(Clusters) found, INOUT(Cluster) cluster, IN(ListSight) s
     const vec2 speed = speedRange(cluster), range = cluster.velocityHigh - cluster.velocityLow;
     found.inFocus = found.inFocus || least < kMinSlope;
     found.sparse = found.sparse && most * sight.lensWidth + speed.y * sight.timeWidth <= kSparsePx;
-    found.fits =
-        found.fits && most * sight.lensRadius + speed.y * sight.farTime <= mapLayout.reachPx &&
-        (cluster.slopeMax - cluster.slopeMin) * sight.lensRadius + max(range.x, range.y) * sight.farTime <=
-            kWidestClusterPx;
+    found.fits = found.fits && most * sight.lensRadius + speed.y * sight.farTime <= mapLayout.reachPx &&
+                 (cluster.slopeMax - cluster.slopeMin) * sight.lensRadius +
+                         0.5f * max(range.x, range.y) * sight.farTime <=
+                     kWidestClusterPx;
     cluster.level = levelFor(blurSpread(least, speed.x));
 }
 
