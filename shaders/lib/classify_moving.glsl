@@ -22,17 +22,12 @@ KERNEL Cluster clusterOfBrick(IN(Brick) brick, IN(BrickMotion) motion) {
     return cluster;
 }
 
-/// Whether slopes do not tell the layers of two clusters apart.
-KERNEL bool slopesMeet(IN(Cluster) a, IN(Cluster) b) {
-    const float gap = mapLayout.surfaceGap;
-    return a.slopeMin - b.slopeMax <= gap && b.slopeMin - a.slopeMax <= gap;
-}
-
-/// Whether velocities do not either.
+/// Whether two clusters are too near to tell their layers apart.
 KERNEL bool meet(IN(Cluster) a, IN(Cluster) b) {
+    const float gap = mapLayout.surfaceGap;
     const vec2 behind = a.velocityLow - b.velocityHigh, before = b.velocityLow - a.velocityHigh;
-    return slopesMeet(a, b) &&
-           max(max(behind.x, behind.y), max(before.x, before.y)) <= kVelocityGap * mapLayout.surfaceGap;
+    return a.slopeMin - b.slopeMax <= gap && b.slopeMin - a.slopeMax <= gap &&
+           max(max(behind.x, behind.y), max(before.x, before.y)) <= kVelocityGap * gap;
 }
 
 KERNEL Cluster joined(IN(Cluster) a, IN(Cluster) b) {
@@ -56,10 +51,10 @@ KERNEL void judge(INOUT(Clusters) found, INOUT(Cluster) cluster, IN(ListSight) s
     const vec2 speed = speedRange(cluster), range = cluster.velocityHigh - cluster.velocityLow;
     found.inFocus = found.inFocus || least < kMinSlope;
     found.sparse = found.sparse && most * sight.lensWidth + speed.y * sight.timeWidth <= kSparsePx;
-    found.fits = found.fits && most * sight.lensRadius + speed.y * sight.farTime <= mapLayout.reachPx &&
-                 (cluster.slopeMax - cluster.slopeMin) * sight.lensRadius +
-                         0.5f * max(range.x, range.y) * sight.farTime <=
-                     kWidestClusterPx;
+    found.fits =
+        found.fits && most * sight.lensRadius + speed.y * sight.farTime <= mapLayout.reachPx &&
+        (cluster.slopeMax - cluster.slopeMin) * sight.lensRadius + max(range.x, range.y) * sight.farTime <=
+            kWidestClusterPx;
     cluster.level = levelFor(blurSpread(least, speed.x));
 }
 
@@ -92,15 +87,8 @@ KERNEL uint movingClassOf(uint begin, uint end, vec4 lensBox, vec2 times, float 
     }
     for (uint i = 0u; i < found.count; ++i) {
         Cluster cluster = keptCluster(i);
-        bool alone = true;
-        for (uint k = 0u; k < found.count; ++k) {
-            if (k == i) continue;
-            const Cluster other = keptCluster(k);
-            found.fits = found.fits && !meet(cluster, other);
-            alone = alone && !slopesMeet(cluster, other);
-        }
+        for (uint k = i + 1u; k < found.count; ++k) found.fits = found.fits && !meet(cluster, keptCluster(k));
         judge(found, cluster, sight);
-        if (alone) cluster.level = -1.0f - cluster.level;
         keepCluster(i, cluster);
     }
     return listClassOf(found, finest, last == end);

@@ -16,7 +16,6 @@ struct Lookup {
     float scale; // texels per pixel
     SlopeCode code;
     VelocityBox velocities;
-    bool alone; // slopes tell its layers
 };
 
 /// A ray: where it is seen, through which lens position, and when (from the middle of the shutter).
@@ -34,9 +33,7 @@ struct FoundLayer {
 
 KERNEL Lookup lookUp(IN(Cluster) cluster) {
     const float gap = 0.5f * mapLayout.surfaceGap;
-    const bool alone = cluster.level < 0.0f;
-    const int level = int(alone ? -1.0f - cluster.level : cluster.level),
-              base = mapLayout.size.x * mapLayout.size.y;
+    const int level = int(cluster.level), base = mapLayout.size.x * mapLayout.size.y;
     const Lookup lookup = {cluster.slopeMin - gap,
                            cluster.slopeMax + gap,
                            mapLayout.size >> level,
@@ -44,8 +41,7 @@ KERNEL Lookup lookUp(IN(Cluster) cluster) {
                            (base - (base >> 2 * level)) / 3 * 4, // 1 + 1/4 + ... of the levels below
                            float(mapLayout.texelsPerPixel) * powerOfTwo(kFloatBias - uint(level)),
                            mapLayout.code,
-                           {cluster.velocityLow, cluster.velocityHigh},
-                           alone};
+                           {cluster.velocityLow, cluster.velocityHigh}};
     return lookup;
 }
 
@@ -57,21 +53,21 @@ KERNEL bool fits(IN(Lookup) lookup, vec3 motion) {
 }
 
 /// The foremost layer of a texel, counted from raster position 0, that belongs to the cluster; false without
-/// one. Its motion if that is asked for, or tells which layer it is.
-KERNEL bool layerAt(IN(Lookup) lookup, ivec2 place, bool motionToo, INOUT(FoundLayer) layer) {
+/// one.
+KERNEL bool layerAt(IN(Lookup) lookup, ivec2 place, INOUT(FoundLayer) layer) {
     const ivec2 inMap = place - lookup.origin;
     const bool inside = uint(inMap.x) < uint(lookup.size.x) && uint(inMap.y) < uint(lookup.size.y);
     const int index = inside ? lookup.begin + inMap.y * lookup.size.x + inMap.x : 0;
     IN(uvec4) texel = mapTexelAt(index);
     const float front = unpackSlope(texel.y, lookup.code), back = unpackSlope(texel.w, lookup.code);
     bool isFront = fits(lookup, front), isBack = fits(lookup, back);
-    if (kMoving && (motionToo || !lookup.alone)) {
+    if (kMoving) {
         if (!(inside && (isFront || isBack))) return false;
         IN(uvec4) motions = mapMotionAt(index);
         const vec3 frontMotion = unpackMotion(uvec2(motions), motionLayout),
                    backMotion = unpackMotion(uvec2(motions.z, motions.w), motionLayout);
-        isFront = isFront && (lookup.alone || fits(lookup, frontMotion));
-        isBack = isBack && (lookup.alone || fits(lookup, backMotion));
+        isFront = isFront && fits(lookup, frontMotion);
+        isBack = isBack && fits(lookup, backMotion);
         if (isFront || isBack) layer.motion = isFront ? frontMotion : backMotion;
     }
     const bool found = inside && (isFront || isBack);
@@ -129,7 +125,7 @@ KERNEL FoundLayer settle(IN(Lookup) lookup, IN(Cluster) cluster, IN(Sight) ray) 
         ivec2 place = ivec2(floor(placeOn(lookup, ray, layer)));
         bool met = false;
         for (int step_ = 1;; ++step_) {
-            const bool found = layerAt(lookup, place, true, layer);
+            const bool found = layerAt(lookup, place, layer);
             met = met || found;
             const ivec2 next = ivec2(floor(placeOn(lookup, ray, layer)));
             if (!found || next == place || step_ == kSettleSteps) break;
@@ -146,7 +142,7 @@ KERNEL vec4 layerAround(IN(Lookup) lookup, vec2 place) {
     for (int i = 0; i < 4; ++i) {
         const ivec2 step_ = ivec2(i & 1, i >> 1);
         FoundLayer found;
-        if (!layerAt(lookup, ivec2(corner) + step_, false, found)) continue;
+        if (!layerAt(lookup, ivec2(corner) + step_, found)) continue;
         const vec4 layer = unpackLayer(found.words);
         const float weight =
             (step_.x == 1 ? part.x : 1.0f - part.x) * (step_.y == 1 ? part.y : 1.0f - part.y) * layer.w;

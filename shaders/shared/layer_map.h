@@ -66,8 +66,7 @@ struct MapLayout {
 };
 
 /// A range of slopes, pixels per lens radius, and the level of the map where it is looked up. Where things
-/// move also a range of velocities, pixels per shutter, and the middle of its depth rates; and a level l is
-/// kept as -1 - l if no other cluster of the list has such slopes, so that slopes tell its layers.
+/// move also a range of velocities, pixels per shutter, and the middle of its depth rates.
 struct Cluster {
     float slopeMin, slopeMax, level;
     float depthRate;

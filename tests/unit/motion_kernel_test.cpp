@@ -298,7 +298,7 @@ TEST(MotionKernel, blurOfDiscAndLineCoversTheirSum) {
 /// Each output of a pixel has its own part of the shutter; groups are narrow in lens and time.
 TEST(MotionKernel, patternsCutTheShutter) {
     for (const auto& [slope, velocity, slots] :
-         {std::tuple(0.f, 100.f, 4), {100.f, 0.f, 0}, {20.f, 40.f, 2}, {3.f, 100.f, 4}}) {
+         {std::tuple(0.f, 100.f, 4), {100.f, 0.f, 0}, {20.f, 40.f, 1}, {3.f, 100.f, 4}}) {
         const OutputPattern pattern = makeOutputPattern(
             128, slope, 1, {}, {.moves = true, .velocityPx = velocity, .open = 0.2f, .span = 0.5f});
         EXPECT_EQ(pattern.slotBits, slots) << slope << ' ' << velocity;
