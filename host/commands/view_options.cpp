@@ -105,17 +105,8 @@ void checkViewOptions(const ViewOptions& options, Method method) {
     LensView view; // any other than traced
     if (options.refocuses()) view.slopeShift = 1;
     if (options.apertureScale || options.fStop || !options.aperture.empty()) view.apertureScale = 0;
+    if (options.changesTime()) view.shutterClose = 0;
     checkView(reconstruction, view);
-
-    const MethodTraits& traits = traitsOf(method);
-    if (options.changesTime() && !traits.makesOutputs())
-        throw Error(ErrorCode::usage,
-                    fmt::format("method {} takes the traced shutter only; choose another", traits.name));
-    if (options.changesTime() && !traits.refocuses())
-        throw Error(ErrorCode::usage,
-                    fmt::format("method {} looks for samples in their own pixels, which another time moves "
-                                "them out of; choose another",
-                                traits.name));
 }
 
 float apertureScale(const ViewOptions& options, const FieldMetadata& details) {

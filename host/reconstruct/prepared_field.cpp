@@ -216,9 +216,14 @@ void checkView(const ReconstructOptions& options, const LensView& view) {
     if (view.slopeShift != 0 && !options.anyFocus)
         throw Error(ErrorCode::usage,
                     fmt::format("method {} was prepared for the traced focus only", traits.name));
-    if (!view.isTracedShutter() && !traits.refocuses())
+    if (!view.isTracedShutter() && !traits.makesOutputs())
         throw Error(ErrorCode::usage,
                     fmt::format("method {} takes the traced shutter only; choose another", traits.name));
+    if (!view.isTracedShutter() && !traits.refocuses())
+        throw Error(ErrorCode::usage,
+                    fmt::format("method {} looks for samples in their own pixels, which another time moves "
+                                "them out of; choose another",
+                                traits.name));
     if (!view.isTracedLens() && !traits.makesOutputs())
         throw Error(ErrorCode::usage,
                     fmt::format("method {} takes the traced lens only; choose another", traits.name));

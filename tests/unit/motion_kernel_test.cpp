@@ -8,7 +8,7 @@
 #include "reconstruct/output_pattern.h"
 #include "reconstruct/points.h"
 #include "reconstruct/tile_lists.h"
-#include "support/synthetic.h"
+#include "support/draw.h"
 
 #include <array>
 #include <gtest/gtest.h>
@@ -21,15 +21,7 @@ namespace {
 
 const Rect kFrame{0, 0, 44, 36};
 
-struct Draw {
-    synthetic::Random random{7};
-
-    float operator()(float low, float high) { return low + (high - low) * random.uniform(); }
-    vec2 place(float low, float high) {
-        const float x = (*this)(low, high);
-        return {x, (*this)(low, high)};
-    }
-};
+using test::Draw;
 
 /// Where an output at time t through uv sees a sample: position and slope.
 glm::dvec3 seenExactly(const LightField& field, std::size_t i, glm::dvec2 uv, double t) {

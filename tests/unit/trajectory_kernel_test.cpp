@@ -1,22 +1,13 @@
 // Trajectories (lib/trajectory.glsl) against lines in double precision.
 #include "lib/trajectory.glsl"
-#include "support/synthetic.h"
+#include "support/draw.h"
 
 #include <gtest/gtest.h>
 
 namespace slant {
 namespace {
 
-struct Draw {
-    synthetic::Random random{7};
-
-    float operator()(float low, float high) { return low + (high - low) * random.uniform(); }
-    vec2 place(float low, float high) {
-        const float x = (*this)(low, high);
-        return {x, (*this)(low, high)};
-    }
-    double part() { return double(random.uniform()); }
-};
+using test::Draw;
 
 TEST(Trajectory, isALineThroughItsSample) {
     Draw draw;
