@@ -38,7 +38,7 @@ void runSample(const FieldOptions& options) {
     SampleOptions sampling;
     sampling.samplesPerPixel = scene.pixelSamples;
     sampling.seed = common.seed;
-    sampling.guides = options.auxiliary;
+    sampling.planes.albedo = options.auxiliary;
     MotionMisses misses;
     const LightField field = traceLightField(tracer, scene, sampling, monitor, &misses);
 

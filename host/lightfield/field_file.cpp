@@ -150,7 +150,7 @@ std::span<const float> numbersOf(const LensMap& map) {
 
 void allocateSamples(LightField& field, bool guides) {
     const std::size_t count = field.firstSample(field.bounds.area());
-    allocate(count, [&] { field.resize(count, guides); });
+    allocate(count, [&] { field.resize(count, {.albedo = guides}); });
 }
 
 void allocateMotion(LightField& field) {

@@ -45,16 +45,18 @@ void FieldDefects::add(const FieldDefects& other) {
     limitedMotion += other.limitedMotion;
 }
 
-void SampleSet::resize(std::size_t count, bool guides, bool moving) {
+void SampleSet::resize(std::size_t count, SamplePlanes planes) {
     samples.resize(count);
     radiance.resize(count);
-    albedo.resize(guides ? count : 0);
-    normal.resize(guides ? count : 0);
-    motion.resize(moving ? count : 0);
+    albedo.resize(planes.albedo ? count : 0);
+    normal.resize(planes.albedo || planes.shading ? count : 0);
+    motion.resize(planes.motion ? count : 0);
+    for (auto* plane : {&illumination, &reflectance, &reflection}) plane->resize(planes.shading ? count : 0);
 }
 
 SampleSpans spansOf(SampleSet& set) {
-    return {set.samples, set.radiance, set.albedo, set.normal, set.motion};
+    return {set.samples, set.radiance,     set.albedo,      set.normal,
+            set.motion,  set.illumination, set.reflectance, set.reflection};
 }
 
 void dropZeroMotion(LightField& field) {
@@ -128,14 +130,26 @@ bool isThinLens(const LightField& field) {
     return field.lensMap.empty() && !hasOwnSlopes(field);
 }
 
+namespace {
+
+/// Throws Error(usage) unless there are all planes that field.planes() speaks of, of the samples' length.
+void checkPlanes(const LightField& field) {
+    SampleSet expected;
+    expected.resize(1, field.planes());
+    for (const auto plane : kValuePlanes)
+        if ((field.*plane).size() != field.samples.size() * (expected.*plane).size())
+            throw Error(ErrorCode::usage,
+                        fmt::format("{} samples have {} radiances, {} albedos, {} normals, {} motions, {} "
+                                    "illuminations, {} reflectances and {} reflections",
+                                    field.samples.size(), field.radiance.size(), field.albedo.size(),
+                                    field.normal.size(), field.motion.size(), field.illumination.size(),
+                                    field.reflectance.size(), field.reflection.size()));
+}
+
+} // namespace
+
 FieldDefects sanitize(LightField& field) {
-    const auto fits = [&](std::size_t size) { return size == field.samples.size(); };
-    if (!fits(field.radiance.size()) || (field.hasGuides() && !fits(field.albedo.size())) ||
-        field.normal.size() != field.albedo.size() || (field.moves() && !fits(field.motion.size())))
-        throw Error(ErrorCode::usage,
-                    fmt::format("{} samples have {} radiances, {} albedos, {} normals and {} motions",
-                                field.samples.size(), field.radiance.size(), field.albedo.size(),
-                                field.normal.size(), field.motion.size()));
+    checkPlanes(field);
     FieldDefects sum;
     std::mutex mutex;
     parallelFor(0, field.samples.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
@@ -143,6 +157,10 @@ FieldDefects sanitize(LightField& field) {
         for (std::size_t i = first; i < last; ++i) {
             glm::vec3 still(0), &motion = field.moves() ? field.motion[i] : still;
             repair(field, field.samples[i], field.radiance[i], motion, local);
+            if (!field.hasShading()) continue;
+            bool unused = false;
+            for (glm::vec3* value : {&field.illumination[i], &field.reflectance[i], &field.reflection[i]})
+                for (int c = 0; c < 3; ++c) repairComponent((*value)[c], unused, unused);
         }
         const std::lock_guard lock(mutex);
         sum.add(local);

@@ -5,6 +5,7 @@
 #include "camera/lens_map.h"
 #include "camera/slope_model.h"
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -48,24 +49,44 @@ inline glm::vec3 relativeMotion(const LightFieldSample& sample, glm::vec3 m) {
     return std::isinf(sample.w) ? m : m / sample.w;
 }
 
+/// Which optional planes of values there are.
+struct SamplePlanes {
+    bool albedo = false;  ///< and normals
+    bool shading = false; ///< normals, illumination, reflectance and reflection
+    bool motion = false;
+};
+
 /// Samples, and planes of values beside them: one value per sample, or none at all.
+///
+/// The radiance of a sample is reflectance * illumination, by the diffuse part of the surface that was seen,
+/// plus its reflection, the rest of what the surface reflects, plus what it emits or the background sends.
 struct SampleSet {
     std::vector<LightFieldSample> samples;
     std::vector<glm::vec3> radiance; ///< linear; one per sample
-    std::vector<glm::vec3> albedo;   ///< in [0, 1]; may be empty, and normals are then, too
+    std::vector<glm::vec3> albedo;   ///< in [0, 1]; may be empty
     std::vector<glm::vec3> normal; ///< world space, unit length, towards the camera; 0 where nothing was hit
     std::vector<glm::vec3> motion; ///< homogeneous, see below; empty where nothing moves
+    std::vector<glm::vec3> illumination; ///< of the diffuse part; empty together with the next two
+    std::vector<glm::vec3> reflectance;  ///< of the diffuse part
+    std::vector<glm::vec3> reflection;
 
+    SamplePlanes planes() const { return {!albedo.empty(), !illumination.empty(), !motion.empty()}; }
     bool hasGuides() const { return !albedo.empty(); }
+    bool hasShading() const { return !illumination.empty(); }
     bool moves() const { return !motion.empty(); }
-    /// `guides`: with albedo and normals.
-    void resize(std::size_t count, bool guides, bool moving = false);
+    void resize(std::size_t count, SamplePlanes planes);
 };
 
-/// Room for samples and their values, of equal length; albedo, normal and motion may be empty.
+/// The planes of values, radiance first.
+inline constexpr std::array<std::vector<glm::vec3> SampleSet::*, 7> kValuePlanes = {
+    &SampleSet::radiance,     &SampleSet::albedo,      &SampleSet::normal,    &SampleSet::motion,
+    &SampleSet::illumination, &SampleSet::reflectance, &SampleSet::reflection};
+
+/// Room for samples and their values, of equal length; all but samples and radiance may be empty.
 struct SampleSpans {
     std::span<LightFieldSample> samples;
-    std::span<glm::vec3> radiance, albedo = {}, normal = {}, motion = {};
+    std::span<glm::vec3> radiance, albedo = {}, normal = {}, motion = {}, illumination = {}, reflectance = {},
+                                   reflection = {};
 };
 SampleSpans spansOf(SampleSet& set);
 

@@ -28,7 +28,8 @@ BruteForce bruteForce(const Scene& scene, const Tracer& tracer, std::uint64_t se
     monitor.beginStage("trace", batch.bounds.area() * std::uint64_t(scene.pixelSamples), "samples");
     for (int first = 0; first < scene.pixelSamples; first += kBatch) {
         batch.samplesPerPixel = std::min(kBatch, scene.pixelSamples - first);
-        batch.resize(batch.bounds.area() * std::size_t(batch.samplesPerPixel), auxiliary, withMotion);
+        batch.resize(batch.bounds.area() * std::size_t(batch.samplesPerPixel),
+                     {.albedo = auxiliary, .motion = withMotion});
         tracer.trace(batch.bounds, first, batch.samplesPerPixel, scene.pixelSamples, seed, spansOf(batch),
                      monitor);
         result.defects.add(sanitize(batch));

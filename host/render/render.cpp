@@ -35,7 +35,7 @@ Rendering render(const Scene& scene, const RenderOptions& options, Backend& back
     reconstruction.filter = scene.filter;
     checkBudget(scene.film.crop, options.sampling.samplesPerPixel, reconstruction);
     SampleOptions sampling = options.sampling;
-    sampling.guides = options.auxiliary;
+    sampling.planes.albedo = options.auxiliary;
 
     Rendering result;
     {

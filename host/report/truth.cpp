@@ -49,7 +49,7 @@ std::string contentKey(const Scene& scene, const Tracer& tracer) {
     for (int y = film.crop.y0; y < film.crop.y1; y += kProbeRows) {
         const Rect row{film.crop.x0, y, film.crop.x1, y + 1};
         SampleSet set;
-        set.resize(row.area(), false);
+        set.resize(row.area(), {});
         tracer.trace(row, 0, 1, 1, 0, spansOf(set), silent);
         for (std::size_t i = 0; i < set.samples.size(); ++i) {
             const LightFieldSample& s = set.samples[i];

@@ -10,13 +10,19 @@ float lastOfPixel(int pixel) {
     return std::nextafter(float(pixel + 1), -std::numeric_limits<float>::infinity());
 }
 
-/// pbrt's sensor and film: brightness, and samples no brighter than the film allows.
-glm::vec3 exposed(const Film& film, glm::vec3 radiance) {
-    radiance *= film.imagingRatio;
-    float brightest = std::max({radiance.r, radiance.g, radiance.b});
+/// What pbrt's sensor and film multiply a radiance by: brightness, and samples no brighter than the film
+/// allows.
+float exposureOf(const Film& film, glm::vec3 radiance) {
+    const float brightest = film.imagingRatio * std::max({radiance.r, radiance.g, radiance.b});
     if (film.maxComponentValue > 0 && brightest > film.maxComponentValue)
-        radiance *= film.maxComponentValue / brightest;
-    return radiance;
+        return film.imagingRatio * (film.maxComponentValue / brightest);
+    return film.imagingRatio;
+}
+
+/// Component by component; 0 where the divisor is.
+glm::vec3 quotient(glm::vec3 a, glm::vec3 b) {
+    const auto divide = [](float x, float y) { return y > 0 ? x / y : 0.f; };
+    return {divide(a.x, b.x), divide(a.y, b.y), divide(a.z, b.z)};
 }
 
 } // namespace
@@ -70,13 +76,14 @@ void BlockTracer::shade(int sample) {
         samplers_[lane] = job_.pattern.shading(places_[lane], sample);
         paths_[lane] = startPath(rays_[lane]);
         goesOn_[lane] = scatter(job_.shading, hits_[lane], job_.scene.maxDepth, samplers_[lane], paths_[lane],
-                                shadows_[lane], job_.out.albedo.empty() ? nullptr : &guides_[lane]);
+                                shadows_[lane], job_.out.normal.empty() ? nullptr : &guides_[lane]);
+        emitted_[lane] = paths_[lane].radiance;
         shadowRays[lane] = shadows_[lane].ray;
         if (!shadows_[lane].needed()) shadowRays[lane].tMax = 0;
     }
     job_.geometry.occluded(shadowRays, occluded);
     for (std::size_t lane = 0; lane < kLanes; ++lane)
-        if (shadows_[lane].needed() && !occluded[lane]) paths_[lane].radiance += shadows_[lane].contribution;
+        if (shadows_[lane].needed() && !occluded[lane]) paths_[lane].add(shadows_[lane]);
 }
 
 /// The rest of a path.
@@ -87,8 +94,7 @@ void BlockTracer::finish(int i) {
         SurfaceHit hit;
         job_.geometry.intersect(paths_[lane].ray, hit);
         on = scatter(job_.shading, hit, job_.scene.maxDepth, samplers_[lane], paths_[lane], shadow);
-        if (shadow.needed() && !job_.geometry.occluded(shadow.ray))
-            paths_[lane].radiance += shadow.contribution;
+        if (shadow.needed() && !job_.geometry.occluded(shadow.ray)) paths_[lane].add(shadow);
     }
 }
 
@@ -103,10 +109,16 @@ void BlockTracer::store(int i, int sample) {
                         std::size_t(x(i) - job_.pixels.x0);
     std::size_t index = pixel * std::size_t(job_.count) + std::size_t(sample - job_.firstSample);
     job_.out.samples[index] = s;
-    job_.out.radiance[index] = exposed(job_.scene.film, weights_[lane] * paths_[lane].radiance);
-    if (!job_.out.albedo.empty()) {
-        job_.out.albedo[index] = guides_[lane].albedo;
-        job_.out.normal[index] = guides_[lane].normal;
+    const PathState& path = paths_[lane];
+    const float exposure = weights_[lane] * exposureOf(job_.scene.film, weights_[lane] * path.radiance);
+    job_.out.radiance[index] = exposure * path.radiance;
+    if (!job_.out.albedo.empty()) job_.out.albedo[index] = guides_[lane].albedo;
+    if (!job_.out.normal.empty()) job_.out.normal[index] = guides_[lane].normal;
+    if (!job_.out.illumination.empty()) {
+        const glm::vec3 reflectance = guides_[lane].reflectance;
+        job_.out.illumination[index] = exposure * quotient(path.diffuse, reflectance);
+        job_.out.reflectance[index] = reflectance;
+        job_.out.reflection[index] = exposure * glm::max(path.radiance - path.diffuse - emitted_[lane], 0.f);
     }
     if (!job_.out.motion.empty()) {
         // The dark around a picture keeps still.

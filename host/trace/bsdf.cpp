@@ -110,6 +110,23 @@ glm::vec3 Bsdf::evaluate(glm::vec3 wi) const {
     return glm::vec3(0);
 }
 
+glm::vec3 Bsdf::evaluateDiffuse(glm::vec3 wi) const {
+    switch (kind_) {
+    case Kind::black:
+    case Kind::mirror:
+    case Kind::conductor:
+        return glm::vec3(0);
+    case Kind::diffuse:
+    case Kind::smoothCoat:
+        return evaluate(wi);
+    case Kind::roughCoat: {
+        glm::vec3 local = frame_.toLocal(wi);
+        return local.z > 0 ? baseValue(local) : glm::vec3(0);
+    }
+    }
+    return glm::vec3(0);
+}
+
 float Bsdf::pdf(glm::vec3 wi) const {
     float cosine = glm::dot(normal_, wi);
     if (!(cosine > 0)) return 0;
@@ -197,7 +214,22 @@ glm::vec3 Bsdf::albedo() const {
         return glm::min(fresnel(cosineOut_), 1.f);
     case Kind::smoothCoat:
     case Kind::roughCoat:
-        return glm::min(fresnel(cosineOut_) + colour_ * (kPi * coat_->meanTransmittance()), 1.f);
+        return glm::min(fresnel(cosineOut_) + reflectance(), 1.f);
+    }
+    return glm::vec3(0);
+}
+
+glm::vec3 Bsdf::reflectance() const {
+    switch (kind_) {
+    case Kind::black:
+    case Kind::mirror:
+    case Kind::conductor:
+        return glm::vec3(0);
+    case Kind::diffuse:
+        return colour_;
+    case Kind::smoothCoat:
+    case Kind::roughCoat:
+        return colour_ * (kPi * coat_->meanTransmittance());
     }
     return glm::vec3(0);
 }

@@ -46,12 +46,16 @@ public:
 
     /// Value * cos for light from wi (unit, world space), without mirror lobes.
     glm::vec3 evaluate(glm::vec3 wi) const;
+    /// The part of that which a diffuse base reflects, rather than an interface or a metal.
+    glm::vec3 evaluateDiffuse(glm::vec3 wi) const;
     /// Density with which sample() returns wi, mirror lobes aside.
     float pdf(glm::vec3 wi) const;
     /// False if the light is absorbed. `lobe` and `u` uniform in [0, 1).
     bool sample(float lobe, glm::vec2 u, BsdfSample& result) const;
     /// Estimate of the reflected part of uniform light, for denoisers; in [0, 1].
     glm::vec3 albedo() const;
+    /// The part of that which evaluateDiffuse reflects: of an illumination by this, textures are gone.
+    glm::vec3 reflectance() const;
 
 private:
     bool setDirections(glm::vec3 normal, glm::vec3 wo);

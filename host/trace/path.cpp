@@ -13,6 +13,15 @@ float powerHeuristic(float pdf, float otherPdf) {
     return a > 0 ? a / (a + b) : 0;
 }
 
+/// How much of the light that a vertex takes from wi, not by a mirror, is of the path's diffuse part.
+glm::vec3 diffuseShareOf(const Bsdf& bsdf, glm::vec3 wi, const PathState& state) {
+    if (state.depth > 1) return state.diffuseShare;
+    if (!bsdf.glossy()) return glm::vec3(1);
+    const glm::vec3 all = bsdf.evaluate(wi), diffuse = bsdf.evaluateDiffuse(wi);
+    const auto share = [](float part, float whole) { return whole > 0 ? part / whole : 0.f; };
+    return {share(diffuse.x, all.x), share(diffuse.y, all.y), share(diffuse.z, all.z)};
+}
+
 } // namespace
 
 void addEmission(const Lights& lights, const SurfaceHit& hit, glm::vec3 wo, PathState& state) {
@@ -23,7 +32,7 @@ void addEmission(const Lights& lights, const SurfaceHit& hit, glm::vec3 wo, Path
         if (state.origin == PathState::Origin::diffuse && lights.complete(hit)) return;
         if (state.origin != PathState::Origin::camera)
             weight = powerHeuristic(state.pdf, lights.pdf(state.receiver, hit, -wo));
-        state.radiance += state.throughput * emitted * weight;
+        state.add(state.throughput * emitted * weight);
         return;
     }
     if (state.origin == PathState::Origin::diffuse) return;
@@ -31,7 +40,7 @@ void addEmission(const Lights& lights, const SurfaceHit& hit, glm::vec3 wo, Path
         float weight = 1;
         if (state.origin == PathState::Origin::glossy)
             weight = powerHeuristic(state.pdf, lights.infinitePdf(state.receiver, i, -wo));
-        state.radiance += state.throughput * lights.infinite(i).radiance(-wo) * weight;
+        state.add(state.throughput * lights.infinite(i).radiance(-wo) * weight);
     }
 }
 
@@ -46,6 +55,7 @@ ShadowRay sampleDirectLight(const Lights& lights, const Bsdf& bsdf, const Surfac
     if (!light.delta && (!light.bounded || bsdf.glossy()))
         weight = powerHeuristic(light.pdf, bsdf.pdf(light.direction));
     shadow.contribution = state.throughput * value * light.radiance * (weight / light.pdf);
+    shadow.diffuseShare = diffuseShareOf(bsdf, light.direction, state);
     shadow.ray = {offsetRayOrigin(hit.position, hit.positionError, hit.geometricNormal, light.direction),
                   light.direction, light.distance * (1 - kShadowEpsilon), state.ray.time};
     return shadow;
@@ -63,6 +73,7 @@ bool continuePath(const Lights& lights, const Bsdf& bsdf, const SurfaceHit& hit,
     state.origin = next.specular   ? PathState::Origin::camera
                    : bsdf.glossy() ? PathState::Origin::glossy
                                    : PathState::Origin::diffuse;
+    if (!next.specular) state.diffuseShare = diffuseShareOf(bsdf, next.direction, state);
     state.throughput *= next.weight;
     state.receiver = {hit.position, bsdf.normal(), state.ray.time};
     state.pdf = next.pdf;

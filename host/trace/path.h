@@ -31,8 +31,8 @@ struct Shading {
 /// Light that arrives unless something is in the way.
 struct ShadowRay {
     Ray ray;
-    glm::vec3 contribution{
-        0}; ///< add it to the path's radiance unless the ray is occluded; 0: nothing to trace
+    glm::vec3 contribution{0}; ///< to the path's radiance, unless the ray is occluded; 0: nothing to trace
+    glm::vec3 diffuseShare{0}; ///< of it, see PathState
 
     bool needed() const { return contribution != glm::vec3(0); }
 };
@@ -44,11 +44,22 @@ struct PathState {
 
     Ray ray; ///< to be intersected next
     glm::vec3 radiance{0};
+    glm::vec3 diffuse{0}; ///< the part of it that the first vertex reflected by Bsdf::evaluateDiffuse
     glm::vec3 throughput{1};
-    int depth = 0; ///< scattering events so far
+    glm::vec3 diffuseShare{0}; ///< how much of what is added to the radiance is of that part
+    int depth = 0;             ///< scattering events so far
     Origin origin = Origin::camera;
     Receiver receiver; ///< the ray's origin, unless it is the camera
     float pdf = 0;     ///< of the ray's direction there
+
+    void add(glm::vec3 light) { add(light, diffuseShare); }
+    void add(const ShadowRay& shadow) { add(shadow.contribution, shadow.diffuseShare); }
+
+private:
+    void add(glm::vec3 light, glm::vec3 share) {
+        radiance += light;
+        diffuse += share * light;
+    }
 };
 
 inline PathState startPath(const Ray& cameraRay) {
@@ -73,10 +84,11 @@ bool bsdfRayNeeded(const Lights& lights, const Bsdf& bsdf);
 bool continuePath(const Lights& lights, const Bsdf& bsdf, const SurfaceHit& hit, int maxDepth, float lobe,
                   glm::vec2 u, PathState& state);
 
-/// Guides for denoisers and compositors.
+/// What filters and compositors want of a first vertex.
 struct SurfaceGuides {
-    glm::vec3 albedo{0}; ///< in [0, 1]
-    glm::vec3 normal{0}; ///< world space, unit length, towards the camera; 0 where nothing was hit
+    glm::vec3 albedo{0};      ///< in [0, 1]
+    glm::vec3 reflectance{0}; ///< of its diffuse part
+    glm::vec3 normal{0};      ///< world space, unit length, towards the camera; 0 where nothing was hit
 };
 
 /// One vertex: state.ray met `hit` (or nothing: !hit.hit()). Fills `shadow`; true if state.ray is to be
@@ -91,7 +103,7 @@ bool scatter(const Shading& shading, const SurfaceHit& hit, int maxDepth, Sample
     addEmission(shading.lights, hit, wo, state);
     if (!hit.hit() || (state.depth == maxDepth && !guides)) return false;
     Bsdf bsdf = shading.materials.bsdf(hit, wo);
-    if (guides) *guides = {bsdf.albedo(), bsdf.normal()};
+    if (guides) *guides = {bsdf.albedo(), bsdf.reflectance(), bsdf.normal()};
     if (state.depth++ == maxDepth) return false;
 
     if (bsdf.scatters() && shading.lights.canSample()) {
@@ -120,7 +132,7 @@ glm::vec3 tracePath(const Geometry& geometry, const Shading& shading, const Ray&
         SurfaceHit hit;
         geometry.intersect(state.ray, hit);
         on = scatter(shading, hit, maxDepth, sampler, state, shadow);
-        if (shadow.needed() && !geometry.occluded(shadow.ray)) state.radiance += shadow.contribution;
+        if (shadow.needed() && !geometry.occluded(shadow.ray)) state.add(shadow);
     }
     return state.radiance;
 }

@@ -1,13 +1,13 @@
 // How a light field is to be sampled.
 #pragma once
-#include <cstdint>
+#include "lightfield/lightfield.h"
 
 namespace slant {
 
 struct SampleOptions {
     int samplesPerPixel = 8;
     std::uint64_t seed = 0;
-    bool guides = false;                    ///< record albedo and normal too
+    SamplePlanes planes = {};               ///< to record; motion is recorded where anything moves
     std::uint64_t memoryBytes = 4ull << 30; ///< budget of the light field
 };
 

@@ -20,9 +20,11 @@ constexpr double kMebibyte = 1 << 20;
 constexpr float kSeenMissPx = 1;
 constexpr double kSeenShare = 0.001;
 
-std::uint64_t fieldBytes(Rect bounds, const SampleOptions& options, bool moving) {
-    const std::uint64_t planes = (options.guides ? 3 : 1) + (moving ? 1 : 0);
-    const std::uint64_t perSample = sizeof(LightFieldSample) + planes * sizeof(glm::vec3);
+std::uint64_t fieldBytes(Rect bounds, const SampleOptions& options) {
+    SampleSet one;
+    one.resize(1, options.planes);
+    std::uint64_t perSample = sizeof(LightFieldSample);
+    for (const auto plane : kValuePlanes) perSample += sizeof(glm::vec3) * (one.*plane).size();
     return std::uint64_t(bounds.area()) * std::uint64_t(options.samplesPerPixel) * perSample;
 }
 
@@ -38,15 +40,14 @@ void requireBudget(std::uint64_t bytes, Rect bounds, const SampleOptions& option
 }
 
 /// Samples of one rectangle.
-SampleSet samplesOf(Rect pixels, const SampleOptions& options, bool moving) {
+SampleSet samplesOf(Rect pixels, const SampleOptions& options) {
     const std::size_t count = pixels.area() * std::size_t(options.samplesPerPixel);
     SampleSet set;
     try {
-        set.resize(count, options.guides, moving);
+        set.resize(count, options.planes);
     } catch (const std::exception&) { // bad_alloc or length_error
-        throw Error(ErrorCode::resources,
-                    fmt::format("no memory for {} samples ({:.0f} MiB)", count,
-                                double(fieldBytes(pixels, options, moving)) / kMebibyte));
+        throw Error(ErrorCode::resources, fmt::format("no memory for {} samples ({:.0f} MiB)", count,
+                                                      double(fieldBytes(pixels, options)) / kMebibyte));
     }
     return set;
 }
@@ -58,14 +59,10 @@ void copyRows(const SampleSet& from, Rect pixels, SampleSet& to, Rect bounds, in
         const std::size_t target =
             (std::size_t(y - bounds.y0) * std::size_t(bounds.width()) + std::size_t(pixels.x0 - bounds.x0)) *
             std::size_t(samplesPerPixel);
-        const auto copy = [&](const auto& plane, auto& into) {
-            if (!plane.empty()) std::copy_n(plane.data() + source, row, into.data() + target);
-        };
-        copy(from.samples, to.samples);
-        copy(from.radiance, to.radiance);
-        copy(from.albedo, to.albedo);
-        copy(from.normal, to.normal);
-        copy(from.motion, to.motion);
+        std::copy_n(from.samples.data() + source, row, to.samples.data() + target);
+        for (const auto plane : kValuePlanes)
+            if (!(from.*plane).empty())
+                std::copy_n((from.*plane).data() + source, row, (to.*plane).data() + target);
     }
 }
 
@@ -198,18 +195,20 @@ void warnOfMisses(const MotionMisses& misses, Monitor& monitor) {
 
 } // namespace
 
-LightField traceLightField(const Tracer& tracer, const Scene& scene, const SampleOptions& options,
+LightField traceLightField(const Tracer& tracer, const Scene& scene, const SampleOptions& asked,
                            Monitor& monitor, MotionMisses* misses) {
+    SampleOptions options = asked;
+    options.planes.motion = tracer.moves();
     const int spp = options.samplesPerPixel;
     const Rect frame = scene.film.crop;
     const LensMap lensMap = tracer.camera().lensMap();
     const SlopeModel slopeModel = tracer.camera().slopeModel();
-    const bool moving = tracer.moves();
+    const bool moving = options.planes.motion;
     auto trace = [&](Rect pixels, SampleSet& into, MotionMisses* missed) {
         tracer.trace(pixels, 0, spp, spp, options.seed, spansOf(into), monitor, missed);
     };
-    requireBudget(fieldBytes(frame, options, moving), frame, options);
-    SampleSet inFrame = samplesOf(frame, options, moving);
+    requireBudget(fieldBytes(frame, options), frame, options);
+    SampleSet inFrame = samplesOf(frame, options);
     MotionMisses missed;
     monitor.beginStage("trace", std::uint64_t(frame.area()) * std::uint64_t(spp), "samples");
     trace(frame, inFrame, moving ? &missed : nullptr);
@@ -225,9 +224,9 @@ LightField traceLightField(const Tracer& tracer, const Scene& scene, const Sampl
             fmt::format("{} reaches {} pixels beyond the frame; the overscan is limited to {} pixels, so "
                         "borders may lack what enters from farther out",
                         moving ? "blur or motion" : "blur", wanted, limit));
-    requireBudget(fieldBytes(bounds, options, moving) + fieldBytes(frame, options, moving), bounds, options);
-    LightField field{samplesOf(bounds, options, moving), bounds,  frame, spp, slopeModel,
-                     tracer.camera().aperture(),         lensMap, {}};
+    requireBudget(fieldBytes(bounds, options) + fieldBytes(frame, options), bounds, options);
+    LightField field{samplesOf(bounds, options), bounds,  frame, spp, slopeModel,
+                     tracer.camera().aperture(), lensMap, {}};
     copyRows(inFrame, frame, field, bounds, spp);
     monitor.beginStage("trace overscan", std::uint64_t(bounds.area() - frame.area()) * std::uint64_t(spp),
                        "samples");
@@ -235,7 +234,7 @@ LightField traceLightField(const Tracer& tracer, const Scene& scene, const Sampl
         Rect{bounds.x0, bounds.y0, bounds.x1, frame.y0}, Rect{bounds.x0, frame.y0, frame.x0, frame.y1},
         Rect{frame.x1, frame.y0, bounds.x1, frame.y1}, Rect{bounds.x0, frame.y1, bounds.x1, bounds.y1}};
     for (Rect part : ring) {
-        SampleSet samples = samplesOf(part, options, moving);
+        SampleSet samples = samplesOf(part, options);
         trace(part, samples, nullptr);
         copyRows(samples, part, field, bounds, spp);
     }

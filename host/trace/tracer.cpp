@@ -60,7 +60,8 @@ void Tracer::trace(Rect pixels, int firstSample, int count, int samplesPerPixel,
     };
     if (firstSample < 0 || count < 0 || count > samplesPerPixel - firstSample ||
         out.samples.size() != samples || !fits(out.radiance, false) || !fits(out.albedo, true) ||
-        out.normal.size() != out.albedo.size() || !fits(out.motion, true))
+        !fits(out.normal, out.albedo.empty()) || !fits(out.motion, true) || !fits(out.illumination, true) ||
+        !fits(out.reflectance, out.illumination.empty()) || !fits(out.reflection, out.illumination.empty()))
         throw Error(ErrorCode::usage, "the buffers do not fit the samples to trace");
     if (samples == 0) return;
     TraceJob job{scene_, camera_, geometry_, shading_, pattern, pixels, firstSample, count, out, motion_};

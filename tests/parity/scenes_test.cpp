@@ -60,7 +60,8 @@ TEST_P(SceneParity, runsRepeat) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneParity,
                          testing::Values("spheres", "row", "lights", "foliage", "indirect", "row-dgauss",
-                                         "row-fisheye", "spin", "crossing", "dolly", "butterflies"),
+                                         "row-fisheye", "spin", "crossing", "dolly", "butterflies",
+                                         "shadows"),
                          [](const auto& scene) {
                              std::string name = scene.param;
                              std::ranges::replace(name, '-', '_');

@@ -47,12 +47,12 @@ TEST(Scenes, theGeneratorMakesTheCommittedBytes) {
 TEST(Scenes, areSmallAndReadWithoutAWarning) {
     for (const std::string name :
          {"spheres", "row", "lights", "foliage", "indirect", "row-dgauss", "row-wide", "row-telephoto",
-          "row-fisheye", "spin", "crossing", "dolly", "butterflies"}) {
+          "row-fisheye", "spin", "crossing", "dolly", "butterflies", "shadows", "shadows-defocused"}) {
         const Scene scene = load(name);
         EXPECT_EQ(scene.film.xResolution, 480) << name;
         EXPECT_EQ(scene.film.yResolution, 270) << name;
         EXPECT_EQ(scene.pixelSamples, 8) << name;
-        EXPECT_TRUE(scene.camera.lensRadius > 0 || scene.realistic) << name;
+        EXPECT_EQ(scene.camera.lensRadius > 0 || scene.realistic, name != "shadows") << name;
         std::uintmax_t bytes = 0;
         for (const std::string& file : std::set(scene.files.begin(), scene.files.end()))
             bytes += fs::file_size(file);
@@ -81,6 +81,7 @@ TEST(Scenes, haveWhatTheyAreFor) {
     EXPECT_EQ(movers(load("spin")), 10) << "the parts of the wheel";
     EXPECT_EQ(movers(load("crossing")), 20);
     EXPECT_EQ(movers(load("butterflies")), 2 * 210) << "wings";
+    EXPECT_EQ(load("shadows").areaLights.size(), 2u);
     const Scene dolly = load("dolly");
     EXPECT_EQ(movers(dolly), 0);
     EXPECT_TRUE(dolly.camera.worldFromCamera.moves());

@@ -237,7 +237,7 @@ TEST(CompoundLens, tracesCleanLightFields) {
         EXPECT_EQ(sanitize(field).total(), 0u) << c.lens;
         // Without the sphere there is radiance 1 all around.
         SampleSet corner;
-        corner.resize(64, false);
+        corner.resize(64, {});
         tracer.trace({2, 2, 3, 3}, 0, 64, 64, 0, spansOf(corner), monitor);
         double sum = 0;
         for (const glm::vec3& rgb : corner.radiance) sum += double(rgb.g);

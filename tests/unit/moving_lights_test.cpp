@@ -49,7 +49,7 @@ double meanOf(const Scene& scene, int spp, std::uint64_t seed) {
     SilentMonitor monitor;
     const Tracer tracer(scene, monitor);
     SampleSet set;
-    set.resize(scene.film.crop.area() * std::size_t(spp), false);
+    set.resize(scene.film.crop.area() * std::size_t(spp), {});
     tracer.trace(scene.film.crop, 0, spp, spp, seed, spansOf(set), monitor);
     double sum = 0;
     for (const glm::vec3& rgb : set.radiance) sum += double(rgb.g);
@@ -101,7 +101,7 @@ TEST(MovingLights, areSampledWhereTheyAre) {
     const Tracer tracer(scene, monitor);
     SampleSet set;
     const Rect floor{4, 9, 12, 12};
-    set.resize(floor.area() * 16, false);
+    set.resize(floor.area() * 16, {});
     tracer.trace(floor, 0, 16, 16, 3, spansOf(set), monitor);
     for (const glm::vec3& rgb : set.radiance) EXPECT_GT(rgb.g, 0);
 }

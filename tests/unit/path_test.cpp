@@ -276,6 +276,7 @@ TEST(Path, auxiliaryChannelsDescribeTheFirstHit) {
     ASSERT_TRUE(geometry.intersect(down, hit));
     EXPECT_FALSE(scatter(shading, hit, 0, random, state, shadow, &guides));
     EXPECT_EQ(guides.albedo, glm::vec3(0.7f, 0.5f, 0.3f));
+    EXPECT_EQ(guides.reflectance, guides.albedo);
     EXPECT_EQ(guides.normal, glm::vec3(0, 0, 1));
     EXPECT_FALSE(shadow.needed());
     EXPECT_FALSE(scatter(shading, SurfaceHit{}, 5, random, state, shadow, &guides));

@@ -69,7 +69,7 @@ Moved movedTo(const LightFieldSample& s, const glm::vec3& m, double time) {
 
 SampleSet traceAll(const Tracer& tracer, Rect pixels, int spp = 4) {
     SampleSet set;
-    set.resize(pixels.area() * std::size_t(spp), false, true);
+    set.resize(pixels.area() * std::size_t(spp), {.motion = true});
     SilentMonitor monitor;
     tracer.trace(pixels, 0, spp, spp, 5, spansOf(set), monitor);
     return set;

@@ -1,6 +1,7 @@
 #include "trace/sample_pass.h"
 
 #include "base/parallel.h"
+#include "scene/read_scene.h"
 #include "unit/trace_scenes.h"
 
 #include <atomic>
@@ -46,9 +47,10 @@ bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
-SampleSet traceSet(const Tracer& tracer, Rect pixels, int first, int count, int spp, bool guides = false) {
+SampleSet traceSet(const Tracer& tracer, Rect pixels, int first, int count, int spp,
+                   SamplePlanes planes = {}) {
     SampleSet set;
-    set.resize(pixels.area() * std::size_t(count), guides);
+    set.resize(pixels.area() * std::size_t(count), planes);
     SilentMonitor monitor;
     tracer.trace(pixels, first, count, spp, 11, spansOf(set), monitor);
     return set;
@@ -146,7 +148,7 @@ TEST(Tracer, recordsAlbedoAndNormalTowardsTheCamera) {
     SilentMonitor monitor;
     Tracer tracer(scene, monitor);
     Rect pixels{0, 0, 24, 16};
-    const SampleSet set = traceSet(tracer, pixels, 0, 2, 2, true);
+    const SampleSet set = traceSet(tracer, pixels, 0, 2, 2, {.albedo = true});
     for (std::size_t i = 0; i < set.samples.size(); ++i) {
         bool hit = set.samples[i].alpha > 0;
         EXPECT_NEAR(glm::length(set.normal[i]), hit ? 1 : 0, 1e-5);
@@ -160,7 +162,7 @@ TEST(Tracer, refusesBuffersThatDoNotFit) {
     SilentMonitor monitor;
     Tracer tracer(scene, monitor);
     SampleSet set;
-    set.resize(64 * 4, false);
+    set.resize(64 * 4, {});
     const SampleSpans all = spansOf(set);
     std::vector<glm::vec3> three(3);
     Rect pixels{0, 0, 8, 8};
@@ -174,6 +176,37 @@ TEST(Tracer, refusesBuffersThatDoNotFit) {
     EXPECT_NO_THROW(tracer.trace({4, 4, 4, 4}, 0, 4, 4, 0, {}, monitor));
 }
 
+TEST(SamplePass, partsOfTheRadianceAddUp) {
+    SilentMonitor monitor;
+    const Scene scene = readScene(std::string(SLANT_SOURCE_DIR) + "/scenes/indirect.pbrt", monitor);
+    const Tracer tracer(scene, monitor);
+    const Rect pixels{60, 180, 320, 230}; // floor, walls, coats and copper
+    const SampleSet set = traceSet(tracer, pixels, 0, 2, 2, {.shading = true});
+    EXPECT_TRUE(sameBits(set.radiance, traceSet(tracer, pixels, 0, 2, 2).radiance));
+    ASSERT_EQ(set.normal.size(), set.samples.size());
+    EXPECT_TRUE(set.albedo.empty());
+    int diffuse = 0, coated = 0, metal = 0;
+    for (std::size_t i = 0; i < set.samples.size(); ++i) {
+        const glm::vec3 ofDiffuse = set.reflectance[i] * set.illumination[i], rest = set.reflection[i];
+        for (int c = 0; c < 3; ++c)
+            ASSERT_NEAR(ofDiffuse[c] + rest[c], set.radiance[i][c], 1e-5f + 1e-5f * set.radiance[i][c]) << i;
+        diffuse += ofDiffuse != glm::vec3(0) && rest == glm::vec3(0);
+        coated += ofDiffuse != glm::vec3(0) && rest != glm::vec3(0);
+        metal += set.reflectance[i] == glm::vec3(0) && rest != glm::vec3(0);
+    }
+    EXPECT_GT(diffuse, 1000);
+    EXPECT_GT(coated, 100);
+    EXPECT_GT(metal, 100);
+
+    const Rect lamp{230, 8, 250, 12};
+    const SampleSet lit = traceSet(tracer, lamp, 0, 2, 2, {.shading = true});
+    for (std::size_t i = 0; i < lit.samples.size(); ++i) {
+        EXPECT_EQ(lit.illumination[i], glm::vec3(0));
+        EXPECT_EQ(lit.reflection[i], glm::vec3(0)) << "what a light emits is not reflected";
+        EXPECT_GT(lit.radiance[i].x, 5);
+    }
+}
+
 TEST(SamplePass, overscanReachesAsFarAsTheBlur) {
     Scene scene = ballScene(64, 48);
     scene.camera.lensRadius = 1;
@@ -181,7 +214,7 @@ TEST(SamplePass, overscanReachesAsFarAsTheBlur) {
     Tracer tracer(scene, monitor);
     SampleOptions options;
     options.samplesPerPixel = 4;
-    options.guides = true;
+    options.planes.albedo = true;
     LightField field = traceLightField(tracer, scene, options, monitor);
     EXPECT_EQ(field.frame, scene.film.crop);
     EXPECT_EQ(field.samples.size(), field.bounds.area() * 4);
@@ -202,7 +235,7 @@ TEST(SamplePass, overscanReachesAsFarAsTheBlur) {
     }
     EXPECT_TRUE(sameBits(field.samples, [&] {
         SampleSet set;
-        set.resize(field.samples.size(), false);
+        set.resize(field.samples.size(), {});
         tracer.trace(field.bounds, 0, 4, 4, options.seed, spansOf(set), monitor);
         return set.samples;
     }()));
