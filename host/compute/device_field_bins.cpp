@@ -54,4 +54,8 @@ void DeviceFieldBins::takeValues(CommandList& commands, ValuePlane plane) {
     commands.run();
 }
 
+void DeviceFieldBins::filterShading(CommandList& commands, const ShadingBand& band) {
+    ShadingPasses(device_, samples_).run(commands, bins_, band);
+}
+
 } // namespace slant

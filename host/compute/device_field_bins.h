@@ -1,7 +1,7 @@
 // The bins of one field on the device, for pictures at any focus and of any plane of values: the same words
 // as FieldBins (reconstruct/field_bins.h).
 #pragma once
-#include "compute/bin_passes.h"
+#include "compute/shading_passes.h"
 
 #include <optional>
 
@@ -16,6 +16,7 @@ public:
 
     void refocus(CommandList& commands, float slopeShift);
     void takeValues(CommandList& commands, ValuePlane plane);
+    void filterShading(CommandList& commands, const ShadingBand& band);
     const DeviceBins& bins() const { return bins_; }
 
 private:

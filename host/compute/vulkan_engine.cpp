@@ -19,7 +19,13 @@ void VulkanEngine::refocus(float slopeShift) {
 
 void VulkanEngine::takeValues(ValuePlane plane) {
     plane_ = plane;
+    shaded_.clear();
     if (bins_) bins_->takeValues(commands_, plane);
+}
+
+void VulkanEngine::filterShading(const ShadingBand& band) {
+    shaded_.push_back(band);
+    bins_->filterShading(commands_, band);
 }
 
 void VulkanEngine::begin(PictureSetup setup) {
@@ -48,6 +54,7 @@ CpuEngine& VulkanEngine::cpu() {
     if (!cpuBegun_) {
         if (bins_) cpu_->refocus(slopeShift_);
         cpu_->takeValues(plane_);
+        for (const ShadingBand& band : shaded_) cpu_->filterShading(band);
         cpu_->begin(setup_);
         cpuBegun_ = true;
     }

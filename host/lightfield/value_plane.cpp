@@ -36,6 +36,10 @@ glm::vec3 unchecked(const LightField& field, ValuePlane plane, std::size_t sampl
         return normalValue(field.hasGuides() ? field.normal[sample] : glm::vec3(0));
     case ValuePlane::forward:
         return forwardValue(field, sample);
+    case ValuePlane::illumination:
+        return field.hasShading() ? field.illumination[sample] : glm::vec3(0);
+    case ValuePlane::reflection:
+        return field.hasShading() ? field.reflection[sample] : glm::vec3(0);
     }
     return glm::vec3(0);
 }

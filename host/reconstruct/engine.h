@@ -7,6 +7,7 @@
 #include "reconstruct/motion_grid.h"
 #include "reconstruct/options.h"
 #include "reconstruct/report.h"
+#include "reconstruct/shading_filter.h"
 #include "shared/layer_map.h"
 #include "shared/window.h"
 
@@ -64,6 +65,8 @@ public:
     virtual void refocus(float slopeShift) = 0;
     /// Values for the stages below: of the binned samples, or of `window` and `box`.
     virtual void takeValues(ValuePlane plane) = 0;
+    /// Filters the shading of the binned samples, whose radiance was taken last.
+    virtual void filterShading(const ShadingBand& band) = 0;
     virtual const GridLayout& grid() const = 0;
     virtual const MotionGrid& motion() const = 0;
     /// An empty film.

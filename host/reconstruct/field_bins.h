@@ -4,7 +4,7 @@
 // cells, the buckets, the order of records and what hides what. So a field is binned once, and each focus
 // only needs its own slopes. The compute path does the same (compute/device_field_bins.h).
 #pragma once
-#include "reconstruct/bins.h"
+#include "reconstruct/shading_filter.h"
 
 namespace slant {
 
@@ -19,6 +19,7 @@ public:
     /// From now on slopes are greater than the traced ones by this much.
     void refocus(float slopeShift);
     void takeValues(ValuePlane plane) { slant::takeValues(bins_, samples_, plane); }
+    void filterShading(const ShadingBand& band) { slant::filterShading(bins_, samples_, band); }
     const Bins& bins() const { return bins_; }
 
 private:

@@ -13,7 +13,8 @@ const std::array<MethodTraits, kMethodCount> kMethods = {{
     {"box", DenseSource::input},
     {"window", DenseSource::window},
     {"full", DenseSource::bins, {"reconstruct", reconstructNearest}},
-    {"auto", DenseSource::bins, {"reconstruct", reconstructNearest}, true},
+    {"unfiltered", DenseSource::bins, {"reconstruct", reconstructNearest}, true},
+    {"auto", DenseSource::bins, {"reconstruct", reconstructNearest}, true, true},
 }};
 
 const std::array<std::string, kMethodCount> kNames = [] {

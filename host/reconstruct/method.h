@@ -9,12 +9,13 @@
 namespace slant {
 
 enum class Method {
-    box,       ///< the pixel filter over the input samples: no reconstruction
-    window,    ///< reprojection within a fixed window of pixels: where Slant came from, for comparison
-    full,      ///< reprojection, apparent surfaces and visibility for every output (Lehtinen et al. 2011)
-    automatic, ///< "auto": outputs of blurred surfaces from a layer map, the others as `full`
+    box,        ///< the pixel filter over the input samples: no reconstruction
+    window,     ///< reprojection within a fixed window of pixels: where Slant came from, for comparison
+    full,       ///< reprojection, apparent surfaces and visibility for every output (Lehtinen et al. 2011)
+    unfiltered, ///< outputs of blurred surfaces from a layer map, the others as `full`
+    automatic,  ///< "auto": the same, with the noise of shading filtered
 };
-inline constexpr std::size_t kMethodCount = 4;
+inline constexpr std::size_t kMethodCount = 5;
 
 /// Where the dense samples of a method come from.
 enum class DenseSource {
@@ -38,8 +39,9 @@ struct SearchKernel {
 struct MethodTraits {
     std::string name; ///< what users call it
     DenseSource source;
-    SearchKernel search = {};  ///< of methods that search the bins
-    bool usesLayerMap = false; ///< outputs come from the layer map where it serves
+    SearchKernel search = {};    ///< of methods that search the bins
+    bool usesLayerMap = false;   ///< outputs come from the layer map where it serves
+    bool filtersShading = false; ///< where samples have the parts of their radiance
 
     /// Whether it makes outputs, so that their number and the lens matter.
     bool makesOutputs() const { return source != DenseSource::input; }

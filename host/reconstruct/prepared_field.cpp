@@ -188,16 +188,32 @@ Image PreparedField::picture(const LensView& view, ValuePlane plane, Monitor& mo
     return filmImage(samples_.field().frame, engine_->film(), report.emptyPixels);
 }
 
+/// Stage "shading".
+void PreparedField::filterShading(ReconstructReport& report) {
+    StageTimer timer(report, "shading", "samples");
+    timer.items = samples_.samples().size();
+    const LightField& field = samples_.field();
+    for (const ShadingBand& band :
+         shadingBands(engine_->grid(), field.frame, reflects(field), options_.memoryBytes / 2))
+        engine_->filterShading(band);
+    timer.bytes = engine_->peakBytes();
+}
+
 /// Stages "bin", unless it is done, and "refocus".
 void PreparedField::bin(const LensView& view, ValuePlane plane, const FilterTable& filter,
                         ReconstructReport& report) {
     if (binnedPlane_ != plane) {
-        StageTimer timer(report, "bin", "samples");
-        timer.items = samples_.samples().size();
-        if (!binnedPlane_) engine_->bin({searchRegionOf(samples_, filter), options_.anyFocus});
-        engine_->takeValues(plane);
-        binnedPlane_ = plane;
-        timer.bytes = engine_->peakBytes();
+        {
+            StageTimer timer(report, "bin", "samples");
+            timer.items = samples_.samples().size();
+            if (!binnedPlane_) engine_->bin({searchRegionOf(samples_, filter), options_.anyFocus});
+            engine_->takeValues(plane);
+            binnedPlane_ = plane;
+            timer.bytes = engine_->peakBytes();
+        }
+        if (plane == ValuePlane::radiance && traitsOf(options_.method).filtersShading &&
+            samples_.field().hasShading())
+            filterShading(report);
     }
     if (view.slopeShift == 0) return engine_->refocus(0);
     StageTimer timer(report, "refocus", "samples");

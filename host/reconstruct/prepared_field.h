@@ -29,6 +29,7 @@ public:
                   IntermediateObserver* observer);
 
 private:
+    void filterShading(ReconstructReport& report);
     void bin(const LensView& view, ValuePlane plane, const FilterTable& filter, ReconstructReport& report);
 
     ReconstructOptions options_;

@@ -3,7 +3,15 @@
 #include "reconstruct/plan.h"
 #include "trace/sample_pass.h"
 
+#include <algorithm>
+
 namespace slant {
+
+bool hasShadingNoise(const Scene& scene) {
+    const auto isSpread = [](const Light& light) { return light.kind == LightKind::infinite; };
+    return !scene.areaLights.empty() || std::ranges::any_of(scene.lights, isSpread) ||
+           scene.lights.size() > 1 || scene.maxDepth > 1;
+}
 
 TracedField traceField(const Tracer& tracer, const Scene& scene, const SampleOptions& options,
                        Monitor& monitor) {
@@ -36,6 +44,7 @@ Rendering render(const Scene& scene, const RenderOptions& options, Backend& back
     checkBudget(scene.film.crop, options.sampling.samplesPerPixel, reconstruction);
     SampleOptions sampling = options.sampling;
     sampling.planes.albedo = options.auxiliary;
+    sampling.planes.shading = traitsOf(reconstruction.method).filtersShading && hasShadingNoise(scene);
 
     Rendering result;
     {

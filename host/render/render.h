@@ -21,6 +21,10 @@ struct TracedField {
 /// What a file says about the light field of a scene; `source` names the scene.
 FieldMetadata metadataOf(const Scene& scene, const Camera& camera, std::string source, std::uint64_t seed);
 
+/// Whether samples of equal places differ in their light: all is lit by one point or direction alone
+/// otherwise. Only then they need the parts of their radiance (SamplePlanes::shading).
+bool hasShadingNoise(const Scene& scene);
+
 /// Throws what traceLightField throws.
 TracedField traceField(const Tracer& tracer, const Scene& scene, const SampleOptions& options,
                        Monitor& monitor);

@@ -140,6 +140,11 @@ private:
     /// Every method and setting from one light field of `spp` samples, which is traced only if it is needed.
     void runMethods(const Scene& scene, const Tracer& tracer, const std::string& content, const Image& truth,
                     int spp) {
+        const bool filtered = std::ranges::any_of(
+            options_.methods, [](Method method) { return traitsOf(method).filtersShading; });
+        const SampleOptions sampling{.samplesPerPixel = spp,
+                                     .seed = options_.seed,
+                                     .planes = {.shading = filtered && hasShadingNoise(scene)}};
         LightField field;
         Timing trace;
         beginShare(scene, std::uint64_t(spp), options_.repeat + 1);
@@ -150,8 +155,7 @@ private:
             if (field.samples.empty())
                 trace = timeRuns(options_.repeat, [&] {
                     field = {};
-                    field = traceField(tracer, scene, {.samplesPerPixel = spp, .seed = options_.seed}, work_)
-                                .field;
+                    field = traceField(tracer, scene, sampling, work_).field;
                 });
             beginShare(scene, std::uint64_t(point.outputs), options_.repeat + 1);
             ReconstructOptions reconstruction;

@@ -5,6 +5,7 @@
 #include "shared/radix.h"
 #include "shared/reconstruct.h"
 #include "shared/scan.h"
+#include "shared/shading.h"
 #include "shared/window.h"
 
 #include <algorithm>
@@ -40,6 +41,10 @@ const Layout kLayouts[] = {
            MEMBER(BinPush, firstSample), MEMBER(BinPush, count), MEMBER(BinPush, brickTotal)),
     STRUCT(RefocusPush, MEMBER(RefocusPush, recordCount), MEMBER(RefocusPush, brickCount),
            MEMBER(RefocusPush, slopeShift)),
+    STRUCT(TexelPush, MEMBER(TexelPush, texels), MEMBER(TexelPush, count)),
+    STRUCT(ShadingPush, MEMBER(ShadingPush, size), MEMBER(ShadingPush, band)),
+    STRUCT(ShadedPush, MEMBER(ShadedPush, size), MEMBER(ShadedPush, firstRow), MEMBER(ShadedPush, lastRow),
+           MEMBER(ShadedPush, count)),
     STRUCT(CountPush, MEMBER(CountPush, count)),
     STRUCT(OutputPush, MEMBER(OutputPush, grid), MEMBER(OutputPush, outputs), MEMBER(OutputPush, lensCells),
            MEMBER(OutputPush, lensScale), MEMBER(OutputPush, firstOutput), MEMBER(OutputPush, count),

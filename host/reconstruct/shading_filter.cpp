@@ -1,0 +1,265 @@
+#include "reconstruct/shading_filter.h"
+
+#include "base/parallel.h"
+#include "base/sort.h"
+#include "lib/shading.glsl"
+#include "reconstruct/kernels.h"
+#include "reconstruct/layer_map.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace slant {
+namespace {
+
+/// How far the filters and averages of all bands reach together.
+constexpr int kReach = (1 << kShadingBands) - 1 + (2 << kShadingBands) - 1;
+/// What is blurred over more than this has little noise left.
+constexpr float kMaxBlurPx = 128;
+constexpr int kLeastRows = 8;
+
+constexpr std::uint64_t kVec4PerSurfel = 4, kVec4PerPart = 10; // of the compute path, whose buffers are more
+
+} // namespace
+
+vec4 surfaceOf(const LightField& field, std::size_t sample) {
+    const vec3& normal = field.normal[sample];
+    const float w = field.samples[sample].w;
+    const bool shaded = std::isfinite(normal.x + normal.y + normal.z) && normal != vec3(0) && w > 0;
+    const float nearness = shaded ? 1 / w : 0.f;
+    return std::isfinite(nearness) && nearness > 0 ? vec4(normal, nearness) : vec4(0);
+}
+
+bool reflects(const LightField& field) {
+    return std::any_of(field.reflection.begin(), field.reflection.end(),
+                       [](const vec3& light) { return light != vec3(0); });
+}
+
+std::vector<ShadingBand> shadingBands(const GridLayout& grid, const Rect& region, bool reflects,
+                                      std::uint64_t bytes) {
+    const float blur = std::min(largestSlope(grid), kMaxBlurPx);
+    const vec2 extent = vec2(grid.brickCount * grid.cellsPerBrick) / grid.invCell;
+    const vec2 low = glm::max(vec2(float(region.x0), float(region.y0)) - blur, grid.origin),
+               high = glm::min(vec2(float(region.x1), float(region.y1)) + blur, grid.origin + extent);
+    const ivec2 first = glm::floor(low), last = glm::max(ivec2(glm::ceil(high)), first + 1);
+    const std::uint64_t rowBytes = std::uint64_t(last.x - first.x) * kSurfels * sizeof(vec4) *
+                                   (kVec4PerSurfel + kVec4PerPart * (reflects ? 2 : 1));
+    const std::int64_t fitting = std::int64_t(bytes / rowBytes) - 2 * kReach;
+    const int rows =
+        int(std::clamp<std::int64_t>(fitting, std::min(kLeastRows, last.y - first.y), last.y - first.y));
+    std::vector<ShadingBand> bands;
+    for (int y = first.y; y < last.y; y += rows) {
+        const int above = std::max(first.y, y - kReach), end = std::min(last.y, y + rows);
+        const int below = std::min(last.y, end + kReach);
+        bands.push_back(
+            {{ivec2(first.x, above), ivec2(last.x - first.x, below - above)}, y - above, end - above});
+    }
+    return bands;
+}
+
+namespace {
+
+/// Of a band, on the CPU.
+template <bool kReflects>
+class ShadingFilter {
+public:
+    ShadingFilter(Bins& bins, const SceneSideSamples& samples, const ShadingBand& band)
+        : bins_(bins), samples_(samples), band_(band), size_(band.layout.size),
+          surfels_(std::size_t(size_.x) * std::size_t(size_.y) * kSurfels), geometry_(surfels_, vec4(0)),
+          slopes_(surfels_), means_(kParts * surfels_), changes_(kParts * surfels_),
+          surfelOfRecord_(bins.positions.size(), kNoSurfel) {}
+
+    void run() {
+        std::vector<vec4> fine(2 * kParts * surfels_), coarse(fine.size());
+        makeSurfels(fine);
+        forEachSurfel([&](int surfel) {
+            SlopeKernels kernels{geometry_};
+            slopes_[std::size_t(surfel)] = vec2(kernels.slopeAlong(surfel, size_, ivec2(1, 0)),
+                                                kernels.slopeAlong(surfel, size_, ivec2(0, 1)));
+        });
+        std::vector<vec3> details(kParts * surfels_), detailsBefore(details.size());
+        std::vector<vec4> powers(kParts * surfels_);
+        std::vector<vec2> smoothed(kParts * surfels_, vec2(0));
+        for (int band = 0; band <= kShadingBands; ++band) {
+            makeBand(band, fine, coarse, smoothed, details, powers);
+            keepShares(band, powers, detailsBefore, smoothed);
+            fine.swap(coarse);
+            details.swap(detailsBefore);
+        }
+        apply();
+    }
+
+private:
+    static constexpr std::size_t kParts = kReflects ? 2 : 1;
+
+    vec3 lightOf(std::size_t sample, int part) const {
+        return samples_.value(part == 0 ? ValuePlane::illumination : ValuePlane::reflection, sample);
+    }
+
+    struct SurfelKernels {
+        ShadingFilter& filter;
+        const std::vector<uint>& records;
+
+        uint recordAt(uint i) const { return records[i]; }
+        uint sampleAt(uint record) const { return filter.bins_.samples[record]; }
+        vec4 surfaceAt(uint sample) const { return surfaceOf(filter.samples_.field(), sample); }
+        vec3 lightAt(uint sample, int part) const { return filter.lightOf(sample, part); }
+        void keepSurfelOf(uint record, uint surfel) { filter.surfelOfRecord_[record] = surfel; }
+#include "lib/surfels.glsl"
+    };
+
+    struct SlopeKernels {
+        const std::vector<vec4>& geometry;
+
+        const vec4& geometryAt(int surfel) const { return geometry[std::size_t(surfel)]; }
+#include "lib/shading_slopes.glsl"
+    };
+
+    struct BandKernels {
+        const ShadingFilter& filter;
+        const std::vector<vec4>& fine;
+
+        const vec4& geometryAt(int surfel) const { return filter.geometry_[std::size_t(surfel)]; }
+        const vec2& slopesAt(int surfel) const { return filter.slopes_[std::size_t(surfel)]; }
+        const vec4& lightSumAt(int i) const { return fine[std::size_t(i)]; }
+#include "lib/shading_bands.glsl"
+    };
+
+    struct GainKernels {
+        const ShadingFilter& filter;
+        const std::vector<vec4>& powers;
+
+        const vec4& geometryAt(int surfel) const { return filter.geometry_[std::size_t(surfel)]; }
+        const vec2& slopesAt(int surfel) const { return filter.slopes_[std::size_t(surfel)]; }
+        const vec4& powersAt(int i) const { return powers[std::size_t(i)]; }
+#include "lib/shading_gains.glsl"
+    };
+
+    template <typename Do>
+    void forEachSurfel(const Do& act) const {
+        parallelFor(0, surfels_, 1 << 10, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i)
+                if (geometry_[i].w > 0) act(int(i));
+        });
+    }
+
+    void makeSurfels(std::vector<vec4>& light) {
+        std::vector<uint> keys(bins_.positions.size()), records(keys.size());
+        for (std::size_t i = 0; i < keys.size(); ++i) {
+            keys[i] = texelOf(band_.layout, vec2(bins_.positions[i]));
+            records[i] = uint(i);
+        }
+        const std::size_t texels = surfels_ / kSurfels;
+        radixSort(keys, records, keyBitsFor(uint(texels) + 1));
+        parallelFor(0, texels, 1 << 9, [&](std::size_t first, std::size_t last) {
+            auto begin = std::ranges::lower_bound(keys, uint(first));
+            for (std::size_t texel = first; texel < last; ++texel) {
+                const auto end = std::find_if(begin, keys.end(), [&](uint key) { return key != texel; });
+                makeSurfels(texel, records, uint(begin - keys.begin()), uint(end - keys.begin()), light);
+                begin = end;
+            }
+        });
+    }
+
+    void makeSurfels(std::size_t texel, const std::vector<uint>& records, uint begin, uint end,
+                     std::vector<vec4>& light) {
+        const std::size_t first = texel * kSurfels;
+        SurfelKernels kernels{*this, records};
+        const auto found = kernels.surfelsOf(begin, end, uint(first));
+        for (int layer = 0; layer < kSurfels; ++layer) {
+            const std::size_t surfel = first + std::size_t(layer);
+            geometry_[surfel] = kernels.meanGeometry(found, layer);
+            for (int part = 0; part < int(kParts); ++part) {
+                const vec4* const sums = found.light + lightIndex(layer, part, 0, true);
+                vec4* const to = light.data() + lightIndex(int(surfel), part, 0, kReflects);
+                to[0] = sums[0];
+                to[1] = sums[1];
+                means_[surfel * kParts + std::size_t(part)] = vec4(meanOf(sums[0] + sums[1]), 0);
+            }
+        }
+    }
+
+    /// The light through the filter of a band, and what that takes away; after the last band, only the powers
+    /// of the one before.
+    void makeBand(int band, const std::vector<vec4>& fine, std::vector<vec4>& coarse,
+                  const std::vector<vec2>& smoothed, std::vector<vec3>& details, std::vector<vec4>& powers) {
+        const bool last = band == kShadingBands;
+        forEachSurfel([&](int surfel) {
+            BandKernels kernels{*this, fine};
+            const auto taps = last ? kernels.noTaps() : kernels.filtered(surfel, size_, 1 << band);
+            for (int part = 0; part < int(kParts); ++part) {
+                const std::size_t i = std::size_t(surfel) * kParts + std::size_t(part);
+                const vec2 before = band > 0 ? smoothed[i] : vec2(0);
+                if (last) {
+                    powers[i] = vec4(0, 0, before);
+                    continue;
+                }
+                const std::size_t sums = std::size_t(lightIndex(surfel, part, 0, kReflects));
+                coarse[sums] = taps.light[2 * part];
+                coarse[sums + 1] = taps.light[2 * part + 1];
+                const Band found = bandOf(fine[sums], fine[sums + 1], coarse[sums], coarse[sums + 1]);
+                details[i] = found.detail;
+                powers[i] = vec4(found.covariance, found.variance, before);
+            }
+        });
+    }
+
+    void keepShares(int band, const std::vector<vec4>& powers, const std::vector<vec3>& detailsBefore,
+                    std::vector<vec2>& smoothed) {
+        forEachSurfel([&](int surfel) {
+            GainKernels kernels{*this, powers};
+            const auto taps = kernels.averaged(surfel, size_, 1 << band);
+            for (int part = 0; part < int(kParts); ++part) {
+                const std::size_t i = std::size_t(surfel) * kParts + std::size_t(part);
+                const vec4 mean = taps.powers[part] / taps.weight;
+                smoothed[i] = vec2(mean);
+                if (band == 0) continue;
+                changes_[i] = changedBy(band > 1 ? changes_[i] : vec4(0), detailsBefore[i],
+                                        keptShare(mean.z, mean.w), band == 1);
+            }
+        });
+    }
+
+    void apply() {
+        const ShadedPush push{size_, band_.firstRow, band_.lastRow, uint(bins_.positions.size())};
+        parallelFor(0, bins_.positions.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
+            for (std::size_t record = first; record < last; ++record) {
+                const uint surfel = surfelOfRecord_[record];
+                if (!isShaded(surfel, push)) continue;
+                const std::size_t sample = bins_.samples[record], i = surfel * kParts;
+                vec3 light = lightOf(sample, 0);
+                vec3 change = samples_.field().reflectance[sample] *
+                              (filteredLight(light, means_[i], changes_[i]) - light);
+                if (kReflects) {
+                    light = lightOf(sample, 1);
+                    change += filteredLight(light, means_[i + 1], changes_[i + 1]) - light;
+                }
+                vec4& value = bins_.values[record];
+                value = vec4(glm::max(vec3(value) + change, vec3(0)), value.w);
+            }
+        });
+    }
+
+    Bins& bins_;
+    const SceneSideSamples& samples_;
+    const ShadingBand& band_;
+    ivec2 size_;
+    std::size_t surfels_;
+    std::vector<vec4> geometry_;
+    std::vector<vec2> slopes_;
+    std::vector<vec4> means_, changes_; ///< of each surfel, part after part
+    std::vector<uint> surfelOfRecord_;
+};
+
+} // namespace
+
+void filterShading(Bins& bins, const SceneSideSamples& samples, const ShadingBand& band) {
+    if (reflects(samples.field()))
+        ShadingFilter<true>(bins, samples, band).run();
+    else
+        ShadingFilter<false>(bins, samples, band).run();
+}
+
+} // namespace slant

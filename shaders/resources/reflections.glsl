@@ -1,0 +1,2 @@
+// Whether surfaces reflect other than diffusely, so that light has two parts (lib/shading.glsl).
+layout(constant_id = 2) const bool kReflects = false;
