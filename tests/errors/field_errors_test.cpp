@@ -310,7 +310,8 @@ TEST_F(FieldErrors, wrongNamesAreUsageErrorsBeforeTracing) {
     const std::string scene = SLANT_SOURCE_DIR "/scenes/spheres.pbrt";
     for (const std::vector<std::string>& words :
          std::vector<std::vector<std::string>>{{"sample", scene, "-o", dir_.file("a.png")},
-                                               {"sample", scene, "-o", dir_.file("a.bin"), "--auxiliary"}}) {
+                                               {"sample", scene, "-o", dir_.file("a.bin"), "--auxiliary"},
+                                               {"sample", scene, "-o", dir_.file("a.txt"), "--shading"}}) {
         const test::ProgramResult result = runSlant(words);
         EXPECT_EQ(result.status, 2) << result.err;
         EXPECT_EQ(result.errorLines(), 1) << result.err;
