@@ -62,6 +62,16 @@ std::string countsText(const LightField& field) {
     return fmt::format("{} to {} ({:.4g} on average)", counts.min, counts.max, counts.mean);
 }
 
+/// The names of the planes of values that a field has.
+std::vector<std::string_view> planeNames(const LightField& field) {
+    constexpr std::array<std::string_view, kValuePlanes.size()> kNames = {
+        "radiance", "albedo", "normal", "motion", "illumination", "reflectance", "reflection"};
+    std::vector<std::string_view> names;
+    for (std::size_t i = 0; i < kNames.size(); ++i)
+        if (!(field.*kValuePlanes[i]).empty()) names.push_back(kNames[i]);
+    return names;
+}
+
 void line(std::string_view name, const std::string& value) {
     fmt::print("  {:<15}  {}\n", name, oneLine(value));
 }
@@ -71,10 +81,9 @@ void printText(const std::string& path, const FieldFile& file, const FieldSummar
     const FieldMetadata& details = file.details;
     fmt::print("{}: light field, {}\n", oneLine(path), nameOf(file.format));
     line("frame", fmt::format("{} of a film of {}", sizeText(field.frame), sizeText(details.film)));
-    line("samples",
-         fmt::format("{} in {} pixels, {} each, {}", field.samples.size(), sizeText(field.bounds),
-                     countsText(field),
-                     field.hasGuides() ? "with albedo and normals" : "without albedo and normals"));
+    line("samples", fmt::format("{} in {} pixels, {} each", field.samples.size(), sizeText(field.bounds),
+                                countsText(field)));
+    line("planes", fmt::to_string(fmt::join(planeNames(field), ", ")));
     line("slope", slopeText(field));
 
     const DerivedCamera camera = deriveCamera(file);
@@ -131,6 +140,7 @@ void printJson(const std::string& path, const FieldFile& file, const FieldSummar
         {"bounds", rectJson(field.bounds)},
         {"samplesPerPixel", {{"least", counts.min}, {"most", counts.max}, {"mean", counts.mean}}},
         {"samples", field.samples.size()},
+        {"planes", planeNames(field)},
         {"auxiliary", field.hasGuides()},
         {"c1", field.slopeModel.c1},
         {"c2", field.slopeModel.c2},

@@ -16,13 +16,15 @@ namespace {
 struct FieldOptions {
     CommonOptions common;
     std::string scene, output;
-    bool auxiliary = false;
+    bool auxiliary = false, shading = false;
 };
 
 void checkOptions(const FieldOptions& options) {
-    if (formatForName(options.output) != FieldFormat::deepExr && options.auxiliary)
-        throw Error(ErrorCode::usage,
-                    fmt::format("'{}': TLFR has no albedo and no normals; write a .exr", options.output));
+    if (formatForName(options.output) != FieldFormat::deepExr && (options.auxiliary || options.shading))
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("'{}': TLFR has no room for what --auxiliary and --shading record; write a .exr",
+                        options.output));
     for (const std::string& path : {options.output, options.common.statsPath})
         if (!path.empty()) checkWritable(path);
 }
@@ -38,7 +40,7 @@ void runSample(const FieldOptions& options) {
     SampleOptions sampling;
     sampling.samplesPerPixel = scene.pixelSamples;
     sampling.seed = common.seed;
-    sampling.planes.albedo = options.auxiliary;
+    sampling.planes = {.albedo = options.auxiliary, .shading = options.shading};
     MotionMisses misses;
     const LightField field = traceLightField(tracer, scene, sampling, monitor, &misses);
 
@@ -66,6 +68,8 @@ void addSample(CLI::App& program) {
         ->required()
         ->type_name("FILE");
     command->add_flag("--auxiliary", options->auxiliary, "store albedo and normal of every sample");
+    command->add_flag("--shading", options->shading,
+                      "record the parts of the radiance that noise is filtered by");
     addSamplingOptions(*command, options->common);
     addRunOptions(*command, options->common);
     command->callback([options] { runSample(*options); });

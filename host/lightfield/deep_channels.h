@@ -29,21 +29,29 @@ inline constexpr std::array<DeepChannel, 8> kSampleChannels = {
 struct DeepPlane {
     std::array<DeepChannel, 3> channels;
     std::vector<glm::vec3> SampleSet::*values;
+    bool SamplePlanes::*group; ///< present as one, or absent as one; null for radiance and normals
 };
 
 constexpr DeepPlane deepPlane(const char* x, const char* y, const char* z,
-                              std::vector<glm::vec3> SampleSet::*values, bool exact = false) {
+                              std::vector<glm::vec3> SampleSet::*values, bool SamplePlanes::*group = nullptr,
+                              bool exact = false) {
     return {{{{x, 0, true, exact}, {y, sizeof(float), true, exact}, {z, 2 * sizeof(float), true, exact}}},
-            values};
+            values,
+            group};
 }
 
-inline constexpr DeepPlane kRadiancePlane = deepPlane("R", "G", "B", &SampleSet::radiance);
-/// All of them, or none.
-inline constexpr std::array<DeepPlane, 2> kGuidePlanes = {
-    deepPlane("albedo.R", "albedo.G", "albedo.B", &SampleSet::albedo),
-    deepPlane("N.X", "N.Y", "N.Z", &SampleSet::normal)};
+/// There together with albedo, with shading, or with both.
+inline constexpr DeepPlane kNormalPlane = deepPlane("N.X", "N.Y", "N.Z", &SampleSet::normal);
 
-inline constexpr DeepPlane kMotionPlane =
-    deepPlane("motion.x", "motion.y", "motion.w", &SampleSet::motion, true);
+inline constexpr std::array<DeepPlane, 7> kDeepPlanes = {
+    deepPlane("R", "G", "B", &SampleSet::radiance),
+    deepPlane("albedo.R", "albedo.G", "albedo.B", &SampleSet::albedo, &SamplePlanes::albedo),
+    kNormalPlane,
+    deepPlane("illumination.R", "illumination.G", "illumination.B", &SampleSet::illumination,
+              &SamplePlanes::shading),
+    deepPlane("reflectance.R", "reflectance.G", "reflectance.B", &SampleSet::reflectance,
+              &SamplePlanes::shading),
+    deepPlane("reflection.R", "reflection.G", "reflection.B", &SampleSet::reflection, &SamplePlanes::shading),
+    deepPlane("motion.x", "motion.y", "motion.w", &SampleSet::motion, &SamplePlanes::motion, true)};
 
 } // namespace slant

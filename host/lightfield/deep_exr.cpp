@@ -21,6 +21,7 @@
 #include <OpenEXR/ImfVersion.h>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace slant {
 namespace {
@@ -168,11 +169,19 @@ std::vector<DeepChannel> present(const FileLocation& where, const Imf::Header& h
     return list;
 }
 
-template <std::size_t count>
-bool hasAny(const Imf::Header& header, const std::array<DeepChannel, count>& channels) {
-    return std::any_of(channels.begin(), channels.end(), [&](const DeepChannel& channel) {
+bool hasAny(const Imf::Header& header, const DeepPlane& plane) {
+    return std::any_of(plane.channels.begin(), plane.channels.end(), [&](const DeepChannel& channel) {
         return header.channels().findChannel(channel.name) != nullptr;
     });
+}
+
+/// The groups of which the file has any channel: it needs all of theirs.
+SamplePlanes planesIn(const Imf::Header& header) {
+    SamplePlanes planes;
+    for (const DeepPlane& plane : kDeepPlanes)
+        if (plane.group && hasAny(header, plane)) planes.*plane.group = true;
+    if (!planes.shading && hasAny(header, kNormalPlane)) planes.albedo = true; // normals need one of them
+    return planes;
 }
 
 // ---------------------------------------------------------------- samples
@@ -192,9 +201,9 @@ std::vector<unsigned> readCounts(Imf::DeepScanLineInputFile& file, const Rect& b
 
 /// Those that a field has room for.
 std::vector<DeepPlane> planesOf(const LightField& field) {
-    std::vector<DeepPlane> planes{kRadiancePlane};
-    if (field.hasGuides()) planes.insert(planes.end(), kGuidePlanes.begin(), kGuidePlanes.end());
-    if (field.moves()) planes.push_back(kMotionPlane);
+    std::vector<DeepPlane> planes;
+    std::copy_if(kDeepPlanes.begin(), kDeepPlanes.end(), std::back_inserter(planes),
+                 [&](const DeepPlane& plane) { return !(field.*plane.values).empty(); });
     return planes;
 }
 
@@ -299,11 +308,7 @@ FieldFile readDeepExr(const std::string& path, Monitor& monitor) {
         Imf::DeepScanLineInputFile file(stream);
         takeSampleCounts(where, field, readCounts(file, field.bounds));
         requireBytes(input, field.bounds.area(), field.firstSample(field.bounds.area()));
-        const bool guides =
-            std::any_of(kGuidePlanes.begin(), kGuidePlanes.end(),
-                        [&](const DeepPlane& plane) { return hasAny(header, plane.channels); });
-        allocateSamples(field, guides);
-        if (hasAny(header, kMotionPlane.channels)) allocateMotion(field);
+        allocateSamples(field, planesIn(header));
         readSamples(where, file, field, monitor);
     } catch (const Iex::BaseExc& error) {
         throw badInput(where, "is a damaged OpenEXR file: {}", error.what());

@@ -9,7 +9,8 @@ namespace slant {
 /// constant that a light field needs.
 FieldFile readDeepExr(const std::string& path, Monitor& monitor);
 
-/// Uncompressed, 32-bit floats; reading gives the same bits again, albedo, normals and motion included.
+/// Uncompressed, 32-bit floats; reading gives the same bits again, in every plane of values that the field
+/// has.
 void writeDeepExr(const std::string& path, const LightField& field, const FieldMetadata& details,
                   Monitor& monitor);
 

@@ -148,9 +148,9 @@ std::span<const float> numbersOf(const LensMap& map) {
     return {&map.texels()[0].x, 4 * map.texels().size()};
 }
 
-void allocateSamples(LightField& field, bool guides) {
+void allocateSamples(LightField& field, SamplePlanes planes) {
     const std::size_t count = field.firstSample(field.bounds.area());
-    allocate(count, [&] { field.resize(count, {.albedo = guides}); });
+    allocate(count, [&] { field.resize(count, planes); });
 }
 
 void allocateMotion(LightField& field) {

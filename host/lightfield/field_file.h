@@ -46,9 +46,9 @@ void takeSampleCounts(const FileLocation& location, LightField& field, std::span
 LensMap lensMapOf(const FileLocation& location, std::span<const float> numbers);
 std::span<const float> numbersOf(const LensMap& map);
 
-/// Make room for the samples of checked extents, and for motion of 0; throw Error(resources) where there is
-/// none.
-void allocateSamples(LightField& field, bool guides);
+/// Make room for the samples of checked extents and for these planes, and for motion of 0; throw
+/// Error(resources) where there is none.
+void allocateSamples(LightField& field, SamplePlanes planes);
 void allocateMotion(LightField& field);
 
 } // namespace slant

@@ -127,7 +127,8 @@ bool hasOwnSlopes(const LightField& field);
 /// Whether slopes are C1/w + C2 throughout, and no lens map stands between them and the samples.
 bool isThinLens(const LightField& field);
 
-/// What `sanitize` found; each count is of samples.
+/// What `sanitize` found; each count is of samples. Components of illumination, reflectance and reflection
+/// that are not finite or below zero are set to 0 without being counted: they are parts of the radiance.
 struct FieldDefects {
     std::uint64_t nonFiniteRadiance = 0; ///< set to 0
     std::uint64_t negativeRadiance = 0;  ///< components below zero set to 0

@@ -226,7 +226,7 @@ FieldFile readTlfr(const std::string& bodyPath, const std::string& headerPath, M
     const std::uint64_t samples =
         std::uint64_t(file.field.bounds.area()) * std::uint64_t(file.field.samplesPerPixel);
     checkTlfrSize(body, samples, text);
-    allocateSamples(file.field, false);
+    allocateSamples(file.field, {});
     monitor.beginStage("read", samples, "samples");
     (text ? readTlfrText : readTlfrBinary)(body, file.field, header.motion(), monitor);
     monitor.endStage();

@@ -14,7 +14,8 @@ namespace slant {
 FieldFile readTlfr(const std::string& bodyPath, const std::string& headerPath, Monitor& monitor);
 
 /// Body `path` and `path`.header; in a text, numbers are as short as reading the same bits again allows.
-/// Albedo and normals are left out; slopes other than C1/w + C2 are an Error(usage).
+/// Albedo, normals, illumination, reflectance and reflection are left out; slopes other than C1/w + C2, and
+/// pixels that differ in their number of samples, are an Error(usage).
 void writeTlfr(const std::string& path, const LightField& field, const FieldMetadata& details, bool text,
                Monitor& monitor);
 

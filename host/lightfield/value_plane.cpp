@@ -33,7 +33,7 @@ glm::vec3 unchecked(const LightField& field, ValuePlane plane, std::size_t sampl
     case ValuePlane::albedo:
         return field.hasGuides() ? field.albedo[sample] : glm::vec3(0);
     case ValuePlane::normal:
-        return normalValue(field.hasGuides() ? field.normal[sample] : glm::vec3(0));
+        return normalValue(field.normal.empty() ? glm::vec3(0) : field.normal[sample]);
     case ValuePlane::forward:
         return forwardValue(field, sample);
     case ValuePlane::illumination:

@@ -121,6 +121,9 @@ TEST_F(FieldErrors, deepHeaders) {
         file.channels[channel] = 1;
         deepFails(file, "has no channel");
     }
+    DeepFile normals;
+    normals.channels.insert({{"N.X", 1}, {"N.Y", 1}, {"N.Z", 1}});
+    deepFails(normals, "has no channel 'albedo.R'");
     DeepFile halves;
     halves.halfChannel = "raster.y";
     deepFails(halves, "'raster.y' must be of type float");
@@ -146,6 +149,32 @@ TEST_F(FieldErrors, deepHeaders) {
     DeepFile apart;
     apart.header.displayWindow() = {{100, 100}, {104, 103}};
     deepFails(apart, "is not part of the pixels");
+}
+
+TEST_F(FieldErrors, partsOfTheRadianceNeedEachOtherAndNormals) {
+    for (const char* channel : {"illumination.R", "illumination.B", "reflectance.G", "reflection.B", "N.X"}) {
+        DeepFile file;
+        file.addShading();
+        file.channels.erase(channel);
+        deepFails(file, fmt::format("has no channel '{}'", channel));
+    }
+    DeepFile noNormals;
+    noNormals.addShading();
+    for (const char* channel : {"N.X", "N.Y", "N.Z"}) noNormals.channels.erase(channel);
+    deepFails(noNormals, "has no channel 'N.X'");
+    DeepFile alone;
+    alone.channels["reflection.G"] = 1;
+    deepFails(alone, "has no channel 'N.X'");
+    DeepFile albedo;
+    albedo.addShading();
+    albedo.channels["albedo.G"] = 1;
+    deepFails(albedo, "has no channel 'albedo.R'");
+    for (const char* channel : {"illumination.G", "reflectance.R", "reflection.B", "N.Y"}) {
+        DeepFile file;
+        file.addShading();
+        file.wholeChannel = channel;
+        deepFails(file, fmt::format("'{}' must be of type float or half", channel));
+    }
 }
 
 TEST_F(FieldErrors, deepCounts) {
@@ -281,7 +310,8 @@ TEST_F(FieldErrors, wrongNamesAreUsageErrorsBeforeTracing) {
     const std::string scene = SLANT_SOURCE_DIR "/scenes/spheres.pbrt";
     for (const std::vector<std::string>& words :
          std::vector<std::vector<std::string>>{{"sample", scene, "-o", dir_.file("a.png")},
-                                               {"sample", scene, "-o", dir_.file("a.bin"), "--auxiliary"}}) {
+                                               {"sample", scene, "-o", dir_.file("a.bin"), "--auxiliary"},
+                                               {"sample", scene, "-o", dir_.file("a.txt"), "--shading"}}) {
         const test::ProgramResult result = runSlant(words);
         EXPECT_EQ(result.status, 2) << result.err;
         EXPECT_EQ(result.errorLines(), 1) << result.err;

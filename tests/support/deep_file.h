@@ -23,7 +23,8 @@ struct DeepFile {
     Imf::Header header{5, 4};
     std::map<std::string, float> channels = {{"R", 0.5f},     {"G", 0.25f},    {"B", 1},      {"Z", 4},
                                              {"raster.x", 0}, {"raster.y", 0}, {"lens.u", 0}, {"lens.v", 0}};
-    std::string halfChannel; ///< stored as half floats
+    std::string halfChannel;  ///< stored as half floats
+    std::string wholeChannel; ///< stored as whole numbers, which happen to have the bits of its floats
     std::function<unsigned(int x, int y)> count = [](int, int) { return 2u; };
 
     DeepFile() {
@@ -33,10 +34,25 @@ struct DeepFile {
         header.insert("slant:c2", Imf::FloatAttribute(3));
     }
 
+    /// Parts of the radiance, and the normals that they need.
+    void addShading() {
+        channels.insert({{"illumination.R", 0.75f},
+                         {"illumination.G", 0.5f},
+                         {"illumination.B", 2},
+                         {"reflectance.R", 0.5f},
+                         {"reflectance.G", 0.25f},
+                         {"reflectance.B", 0.125f},
+                         {"reflection.R", 0.0625f},
+                         {"reflection.G", 0},
+                         {"reflection.B", 1},
+                         {"N.X", 0},
+                         {"N.Y", -1},
+                         {"N.Z", 0.5f}});
+    }
+
     void write(const std::string& path) {
         const Imath::Box2i window = header.dataWindow();
-        for (const auto& [name, value] : channels)
-            header.channels().insert(name, Imf::Channel(name == halfChannel ? Imf::HALF : Imf::FLOAT));
+        for (const auto& [name, value] : channels) header.channels().insert(name, Imf::Channel(typeOf(name)));
         Imf::DeepScanLineOutputFile file(path.c_str(), header);
         const int width = window.max.x - window.min.x + 1;
         for (int y = window.min.y; y <= window.max.y; ++y) {
@@ -47,6 +63,10 @@ struct DeepFile {
     }
 
 private:
+    Imf::PixelType typeOf(const std::string& name) const {
+        return name == halfChannel ? Imf::HALF : name == wholeChannel ? Imf::UINT : Imf::FLOAT;
+    }
+
     void writeRow(Imf::DeepScanLineOutputFile& file, int x0, int y, int width,
                   std::vector<unsigned>& counts) {
         Imf::DeepFrameBuffer buffer;
@@ -67,7 +87,7 @@ private:
                 pointers[name].push_back(isHalf ? static_cast<void*>(halves[name].back().data())
                                                 : values[name].back().data());
             }
-            buffer.insert(name, Imf::DeepSlice(isHalf ? Imf::HALF : Imf::FLOAT,
+            buffer.insert(name, Imf::DeepSlice(typeOf(name),
                                                reinterpret_cast<char*>(pointers[name].data()) -
                                                    x0 * long(sizeof(void*)),
                                                sizeof(void*), 0, isHalf ? sizeof(half) : sizeof(float)));

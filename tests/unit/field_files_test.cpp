@@ -187,14 +187,33 @@ TEST_F(FieldFiles, everyFilterAndAnEmptyDescription) {
     }
 }
 
-TEST_F(FieldFiles, exrKeepsAlbedoNormalsAndSlopesOfTheirOwn) {
-    FieldFile file = richField();
-    synthetic::Random random(4);
-    const auto vector = [&] { return glm::vec3(random.uniform(), random.uniform(), random.uniform()); };
-    for (std::size_t i = 0; i < file.field.samples.size(); ++i) {
-        file.field.albedo.push_back(vector());
-        file.field.normal.push_back(vector());
+TEST_F(FieldFiles, exrKeepsEveryChoiceOfPlanes) {
+    for (int choice = 0; choice < 8; ++choice) {
+        SCOPED_TRACE(choice);
+        const SamplePlanes planes{(choice & 1) != 0, (choice & 2) != 0, (choice & 4) != 0};
+        const FieldFile file = test::fieldWithPlanes(planes);
+        write("a.exr", file);
+        const FieldFile got = read("a.exr");
+        EXPECT_EQ(got.field.hasGuides(), planes.albedo);
+        EXPECT_EQ(got.field.hasShading(), planes.shading);
+        EXPECT_EQ(got.field.moves(), planes.motion);
+        EXPECT_EQ(got.field.normal.empty(), !planes.albedo && !planes.shading);
+        expectSame(got, file);
     }
+}
+
+TEST_F(FieldFiles, tlfrLeavesOutAllPlanesButMotion) {
+    FieldFile file = test::fieldWithPlanes({.albedo = true, .shading = true, .motion = true});
+    for (const char* name : {"a.bin", "a.txt"}) {
+        write(name, file);
+        FieldFile expected = file;
+        expected.field.resize(file.field.samples.size(), {.motion = true});
+        expectSame(read(name), expected);
+    }
+}
+
+TEST_F(FieldFiles, exrKeepsSlopesOfTheirOwn) {
+    FieldFile file = richField();
     for (std::size_t i = 0; i < file.field.samples.size(); i += 7) file.field.samples[i].slope = 5 + float(i);
     EXPECT_TRUE(hasOwnSlopes(file.field));
     write("a.exr", file);
@@ -308,6 +327,22 @@ TEST_F(FieldFiles, deepFilesOfOthersNeedLittle) {
     EXPECT_EQ(s.slope, 1);
 }
 
+TEST_F(FieldFiles, deepFilesOfOthersMayShareTheirShading) {
+    for (const char* half : {"illumination.R", "reflectance.R", "reflection.R", "N.X"}) {
+        DeepFile file;
+        file.addShading();
+        file.halfChannel = half;
+        file.write(dir_.file("a.exr"));
+        const LightField got = read("a.exr").field;
+        EXPECT_FALSE(got.hasGuides());
+        ASSERT_TRUE(got.hasShading());
+        EXPECT_EQ(got.illumination[7], glm::vec3(0.75f, 0.5f, 2));
+        EXPECT_EQ(got.reflectance[7], glm::vec3(0.5f, 0.25f, 0.125f));
+        EXPECT_EQ(got.reflection[7], glm::vec3(0.0625f, 0, 1));
+        EXPECT_EQ(got.normal[7], glm::vec3(0, -1, 0.5f));
+    }
+}
+
 TEST_F(FieldFiles, windowsOfDeepFilesAreFrameAndOverscan) {
     DeepFile file;
     file.header.dataWindow() = {{-3, 2}, {11, 9}};
@@ -339,6 +374,17 @@ TEST_F(FieldFiles, summaryCountsWhatSanitizeMeets) {
     EXPECT_EQ(summary.defects.badDepth, met.badDepth);
     EXPECT_EQ(summary.defects.total(), met.total());
     EXPECT_EQ(summary.moving, 0u);
+}
+
+TEST_F(FieldFiles, sanitizeClearsPartsOfTheRadianceWithoutCounting) {
+    LightField field = test::fieldWithPlanes({.shading = true}).field;
+    const LightField before = field, plain = richField().field;
+    EXPECT_EQ(sanitize(field).total(), summarize(plain).defects.total());
+    for (const auto plane : {&SampleSet::illumination, &SampleSet::reflectance, &SampleSet::reflection})
+        for (std::size_t i = 0; i < field.samples.size(); ++i) {
+            const glm::vec3 was = (before.*plane)[i];
+            EXPECT_EQ((field.*plane)[i], glm::vec3(was.r, std::isfinite(was.g) ? was.g : 0.f, 0));
+        }
 }
 
 } // namespace
