@@ -15,16 +15,22 @@ protected:
         if (value && std::string_view(value) == "1" && GetParam() != std::string("cpu"))
             GTEST_SKIP() << "SLANT_TESTS_WITHOUT_VULKAN";
     }
-    /// Sampled and reconstructed through each of `files`, a scene is as rendered, which is returned.
+    /// Sampled and reconstructed through each of `files`, a scene is as rendered, which is returned. TLFR
+    /// holds no parts of radiance, so shading is filtered only where `sampling` asks for them.
     Image renderedThrough(const std::vector<std::string>& files, const std::string& scene,
-                          const std::vector<std::string>& tracing) const {
-        const std::vector<std::string> picturing = {"--out-spp", "16", "--float", "--device", GetParam()};
+                          const std::vector<std::string>& tracing,
+                          const std::vector<std::string>& sampling = {}) const {
+        const std::string method = sampling.empty() ? "unfiltered" : "auto";
+        const std::vector<std::string> picturing = {"--out-spp", "16",       "--float", "--method",
+                                                    method,      "--device", GetParam()};
         std::vector<std::string> both = tracing;
         both.insert(both.end(), picturing.begin(), picturing.end());
         run({"render", scene, "-o", dir_.file("render.exr"), "--quiet"}, both);
         const Image expected = picture("render.exr");
         for (const std::string& field : files) {
-            run({"sample", scene, "-o", dir_.file(field), "--quiet"}, tracing);
+            std::vector<std::string> sampled = tracing;
+            sampled.insert(sampled.end(), sampling.begin(), sampling.end());
+            run({"sample", scene, "-o", dir_.file(field), "--quiet"}, sampled);
             run({"reconstruct", dir_.file(field), "-o", dir_.file("out.exr"), "--quiet"}, picturing);
             const Image got = picture("out.exr");
             EXPECT_EQ(got.dataWindow, expected.dataWindow);
@@ -50,6 +56,13 @@ TEST_P(ThroughFiles, sampleAndReconstructIsRender) {
     EXPECT_EQ(picture.width(), 61);
 }
 
+TEST_P(ThroughFiles, shadingIsFilteredAsInRender) {
+    const std::vector<std::string> tracing = {"--crop", "201,262,101,148", "--spp", "3", "--seed", "5"};
+    const std::string row = SLANT_SOURCE_DIR "/scenes/row.pbrt";
+    const Image filtered = renderedThrough({"field.exr"}, row, tracing, {"--shading"});
+    EXPECT_FALSE(filtered.pixels == renderedThrough({"field.exr"}, row, tracing).pixels);
+}
+
 TEST_P(ThroughFiles, sampleAndReconstructIsRenderThroughALensToo) {
     renderedThrough({"field.exr", "field.txt"}, SLANT_SOURCE_DIR "/scenes/row-fisheye.pbrt",
                     {"--crop", "440,479,231,260", "--spp", "3"});
@@ -71,8 +84,8 @@ TEST_P(ThroughFiles, shapesAtTheStopOfALensTravelAlong) {
                 "LightSource \"infinite\" \"rgb L\" [0.1 0.2 0.4]\nTranslate -0.1 0.05 1.2\n"
                 "AreaLightSource \"diffuse\" Shape \"sphere\" \"float radius\" 0.03\n");
         pictures.push_back(renderedThrough({"field.bin"}, scene, {}));
-        run({"render", scene, "-o", dir_.file("cpu.exr"), "--quiet", "--out-spp", "16", "--float", "--device",
-             "cpu"},
+        run({"render", scene, "-o", dir_.file("cpu.exr"), "--quiet", "--out-spp", "16", "--float", "--method",
+             "unfiltered", "--device", "cpu"},
             {});
         EXPECT_TRUE(picture("cpu.exr").pixels == pictures.back().pixels) << aperture;
     }
@@ -94,8 +107,8 @@ TEST_P(ThroughFiles, aperturesTravelAlong) {
                                    "\"\nWorldBegin\n"
                                    "LightSource \"infinite\" \"rgb L\" [0.1 0.2 0.4]\nTranslate 0 0 4\n"
                                    "AreaLightSource \"diffuse\" Shape \"sphere\" \"float radius\" 0.4\n");
-        const std::vector<std::string> picturing = {"--out-spp", "32",       "--float",
-                                                    "--quiet",   "--device", GetParam()};
+        const std::vector<std::string> picturing = {"--out-spp", "32",         "--float",  "--quiet",
+                                                    "--method",  "unfiltered", "--device", GetParam()};
         run({"render", scene, "-o", dir_.file("render.exr")}, picturing);
         pictures.push_back(picture("render.exr"));
         for (const std::string field : {"field.exr", "field.bin"}) {

@@ -1,9 +1,11 @@
 // The compute path against the CPU's where things move, stage by stage, to the bit.
 #include "compute/compute_reconstructor.h"
 #include "reconstruct/cpu_reconstructor.h"
+#include "scene/read_scene.h"
 #include "support/intermediates.h"
 #include "support/synthetic.h"
 #include "support/vulkan_fixture.h"
+#include "trace/sample_pass.h"
 
 #include <array>
 #include <cmath>
@@ -96,6 +98,29 @@ TEST_F(MotionParity, anyMotion) {
     EXPECT_GT(defects.badMotion, 0u);
     EXPECT_GT(defects.limitedMotion, 0u);
     for (const Method method : kMethods) expectSame(field, method);
+}
+
+/// A ball that crosses a wall behind a double Gauss, lit by a sky.
+TEST_F(MotionParity, throughACompoundLens) {
+    SilentMonitor monitor;
+    const Scene scene = readSceneText(
+        "Film \"rgb\" \"integer xresolution\" 48 \"integer yresolution\" 27 \"float diagonal\" 36\n"
+        "Camera \"realistic\" \"string lensfile\" \"" SLANT_SOURCE_DIR
+        "/scenes/lenses/dgauss-50mm.dat\" \"float aperturediameter\" 17.1 \"float focusdistance\" 0.6\n"
+        "WorldBegin LightSource \"infinite\" \"rgb L\" [1 2 3]\n"
+        "Shape \"bilinearmesh\" \"point3 P\" [-2 -2 2  2 -2 2  -2 2 2  2 2 2]\n"
+        "ActiveTransform EndTime Translate 0.06 0.02 -0.3 ActiveTransform All\n"
+        "Translate -0.1 0 1.2 Shape \"sphere\" \"float radius\" 0.08\n",
+        "s.pbrt", monitor);
+    const Tracer tracer(scene, monitor);
+    LightField field = traceLightField(tracer, scene, {.samplesPerPixel = 3}, monitor);
+    EXPECT_EQ(sanitize(field).total(), 0u);
+    EXPECT_TRUE(field.moves());
+    EXPECT_FALSE(field.lensMap.empty());
+    for (const Method method : kMethods) expectSame(field, method);
+    LensView instant;
+    instant.shutterOpen = instant.shutterClose = 0.8f;
+    expectSame(field, Method::automatic, instant);
 }
 
 TEST_F(MotionParity, filmDoesNotDependOnMemory) {
