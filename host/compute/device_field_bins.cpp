@@ -1,18 +1,9 @@
 #include "compute/device_field_bins.h"
 
-#include "base/parallel.h"
+#include "compute/field_buffers.h"
 #include "reconstruct/field_bins.h"
 
-#include <algorithm>
-
 namespace slant {
-namespace {
-
-/// Values uploaded at a time: 16 MiB.
-constexpr std::size_t kUploadValues = std::size_t(1) << 20;
-
-} // namespace
-
 DeviceFieldBins::DeviceFieldBins(Device& device, CommandList& commands, const SceneSideSamples& samples,
                                  const BinScope& scope)
     : device_(device), samples_(samples),
@@ -38,16 +29,8 @@ void DeviceFieldBins::refocus(CommandList& commands, float slopeShift) {
 }
 
 void DeviceFieldBins::takeValues(CommandList& commands, ValuePlane plane) {
-    const std::size_t count = samples_.samples().size();
-    Buffer ofSamples(device_, TexelFormat::rgba32f, count);
-    std::vector<vec4> part(std::min(kUploadValues, count));
-    for (std::size_t begin = 0; begin < count; begin += part.size()) {
-        part.resize(std::min(kUploadValues, count - begin));
-        parallelFor(0, part.size(), 1 << 15, [&](std::size_t first, std::size_t last) {
-            for (std::size_t i = first; i < last; ++i) part[i] = vec4(samples_.value(plane, begin + i), 0);
-        });
-        ofSamples.upload(part, begin);
-    }
+    const Buffer ofSamples = sampleBuffer(device_, samples_.samples().size(),
+                                          [&](std::size_t i) { return vec4(samples_.value(plane, i), 0); });
     const Pass pass(device_, "bin_values");
     const CountPush push{bins_.grid.sampleCount};
     commands.dispatch(pass, {bins_.samples, ofSamples, bins_.values}, push, pass.gridFor(push.count));

@@ -1,6 +1,5 @@
 #include "compute/shading_passes.h"
 
-#include "base/parallel.h"
 #include "base/sort.h"
 #include "compute/field_buffers.h"
 
@@ -33,28 +32,27 @@ std::array<std::uint32_t, 3> constantsOf(const LightField& field, bool reflects)
 
 } // namespace
 
+ShadingPasses::Inputs ShadingPasses::inputsOf(Device& device, const SceneSideSamples& samples,
+                                              bool reflects) {
+    const LightField& field = samples.field();
+    const std::size_t count = field.samples.size();
+    const auto light = [&](ValuePlane plane, std::size_t of) {
+        return sampleBuffer(device, of,
+                            [&, plane](std::size_t i) { return vec4(samples.value(plane, i), 0); });
+    };
+    return {sampleBuffer(device, count, [&](std::size_t i) { return surfaceOf(field, i); }),
+            light(ValuePlane::illumination, count),
+            sampleBuffer(device, count, [&](std::size_t i) { return vec4(field.reflectance[i], 0); }),
+            light(ValuePlane::reflection, reflects ? count : 0)};
+}
+
 ShadingPasses::ShadingPasses(Device& device, const SceneSideSamples& samples)
     : device_(device), samples_(samples), reflects_(reflects(samples.field())),
       constants_(constantsOf(samples.field(), reflects_)), texels_(device, "shading_texels"),
       start_(device, "list_start"), surfels_(device, "shading_surfels", constants_),
       slopes_(device, "shading_slopes"), bands_(device, "shading_bands", constants_),
       gains_(device, "shading_gains", constants_), apply_(device, "shading_apply", constants_),
-      inputs_{uploaded([&](std::size_t i) { return surfaceOf(samples.field(), i); }),
-              uploaded([&](std::size_t i) { return vec4(samples.value(ValuePlane::illumination, i), 0); }),
-              uploaded([&](std::size_t i) { return vec4(samples.field().reflectance[i], 0); }),
-              reflects_
-                  ? uploaded([&](std::size_t i) { return vec4(samples.value(ValuePlane::reflection, i), 0); })
-                  : Buffer(device, TexelFormat::rgba32f, 0)} {}
-
-Buffer ShadingPasses::uploaded(const std::function<vec4(std::size_t)>& valueOf) const {
-    std::vector<vec4> values(samples_.samples().size());
-    parallelFor(0, values.size(), 1 << 15, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) values[i] = valueOf(i);
-    });
-    Buffer buffer(device_, TexelFormat::rgba32f, values.size());
-    buffer.upload(values);
-    return buffer;
-}
+      inputs_(inputsOf(device, samples, reflects_)) {}
 
 void ShadingPasses::makeSurfels(CommandList& commands, const DeviceBins& bins, const ShadingBand& band,
                                 const Surfels& surfels) {

@@ -3,8 +3,6 @@
 #include "compute/bin_passes.h"
 #include "reconstruct/shading_filter.h"
 
-#include <functional>
-
 namespace slant {
 
 class ShadingPasses {
@@ -22,7 +20,7 @@ private:
     };
     struct Surfels;
 
-    Buffer uploaded(const std::function<vec4(std::size_t)>& valueOf) const;
+    static Inputs inputsOf(Device& device, const SceneSideSamples& samples, bool reflects);
     void makeSurfels(CommandList& commands, const DeviceBins& bins, const ShadingBand& band,
                      const Surfels& surfels);
 

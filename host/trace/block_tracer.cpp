@@ -77,7 +77,6 @@ void BlockTracer::shade(int sample) {
         paths_[lane] = startPath(rays_[lane]);
         goesOn_[lane] = scatter(job_.shading, hits_[lane], job_.scene.maxDepth, samplers_[lane], paths_[lane],
                                 shadows_[lane], job_.out.normal.empty() ? nullptr : &guides_[lane]);
-        emitted_[lane] = paths_[lane].radiance;
         shadowRays[lane] = shadows_[lane].ray;
         if (!shadows_[lane].needed()) shadowRays[lane].tMax = 0;
     }
@@ -118,7 +117,7 @@ void BlockTracer::store(int i, int sample) {
         const glm::vec3 reflectance = guides_[lane].reflectance;
         job_.out.illumination[index] = exposure * quotient(path.diffuse, reflectance);
         job_.out.reflectance[index] = reflectance;
-        job_.out.reflection[index] = exposure * glm::max(path.radiance - path.diffuse - emitted_[lane], 0.f);
+        job_.out.reflection[index] = exposure * path.reflection;
     }
     if (!job_.out.motion.empty()) {
         // The dark around a picture keeps still.

@@ -54,8 +54,7 @@ private:
     std::array<float, kLanes> lastX_, lastY_; ///< largest raster positions inside the pixels
     std::array<LightFieldSample, kLanes> samples_;
     std::array<SurfaceGuides, kLanes> guides_;
-    std::array<glm::vec3, kLanes> emitted_; ///< what was seen to emit
-    std::array<float, kLanes> weights_;     ///< of the radiance
+    std::array<float, kLanes> weights_; ///< of the radiance
     std::array<Ray, kLanes> rays_;
     std::array<SurfaceHit, kLanes> hits_;
     std::array<ShadingSampler, kLanes> samplers_;

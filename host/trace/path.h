@@ -44,9 +44,10 @@ struct PathState {
 
     Ray ray; ///< to be intersected next
     glm::vec3 radiance{0};
-    glm::vec3 diffuse{0}; ///< the part of it that the first vertex reflected by Bsdf::evaluateDiffuse
+    // Of it: what the first vertex reflected by Bsdf::evaluateDiffuse, and what it reflected otherwise.
+    glm::vec3 diffuse{0}, reflection{0};
     glm::vec3 throughput{1};
-    glm::vec3 diffuseShare{0}; ///< how much of what is added to the radiance is of that part
+    glm::vec3 diffuseShare{0}; ///< how much of what is added to the radiance is diffuse
     int depth = 0;             ///< scattering events so far
     Origin origin = Origin::camera;
     Receiver receiver; ///< the ray's origin, unless it is the camera
@@ -58,7 +59,9 @@ struct PathState {
 private:
     void add(glm::vec3 light, glm::vec3 share) {
         radiance += light;
+        if (depth == 0) return; // the first vertex emits it
         diffuse += share * light;
+        reflection += (1.f - share) * light;
     }
 };
 
