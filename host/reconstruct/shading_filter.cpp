@@ -20,7 +20,7 @@ constexpr int kReach = (1 << kShadingBands) - 1 + (2 << kShadingBands) - 1;
 constexpr float kMaxBlurPx = 128;
 constexpr int kLeastRows = 8;
 
-constexpr std::uint64_t kVec4PerSurfel = 4, kVec4PerPart = 10; // of the compute path, whose buffers are more
+constexpr std::uint64_t kVec4PerSurfel = 2, kVec4PerPart = 10; // on the device; less on the CPU
 
 } // namespace
 
@@ -39,15 +39,11 @@ bool reflects(const LightField& field) {
 
 std::vector<ShadingBand> shadingBands(const GridLayout& grid, const Rect& region, bool reflects,
                                       std::uint64_t bytes) {
-    const float blur = std::min(largestSlope(grid), kMaxBlurPx);
+    // Whatever the focus, so that pictures do not depend on the one before.
     const vec2 extent = vec2(grid.brickCount * grid.cellsPerBrick) / grid.invCell;
-    const vec2 low = glm::max(vec2(float(region.x0), float(region.y0)) - blur, grid.origin),
-               high = glm::min(vec2(float(region.x1), float(region.y1)) + blur, grid.origin + extent);
-    const ivec2 first = glm::floor(low);
-    ivec2 last = glm::max(ivec2(glm::ceil(high)), first + 1);
-    // An odd width, since rows a whole number of pages apart fall into the same sets of a cache: 2.5 times
-    // slower.
-    last.x += (last.x - first.x + 1) % 2;
+    const vec2 low = glm::max(vec2(float(region.x0), float(region.y0)) - kMaxBlurPx, grid.origin),
+               high = glm::min(vec2(float(region.x1), float(region.y1)) + kMaxBlurPx, grid.origin + extent);
+    const ivec2 first = glm::floor(low), last = glm::max(ivec2(glm::ceil(high)), first + 1);
     const std::uint64_t rowBytes = std::uint64_t(last.x - first.x) * kSurfels * sizeof(vec4) *
                                    (kVec4PerSurfel + kVec4PerPart * (reflects ? 2 : 1));
     const std::int64_t fitting = std::int64_t(bytes / rowBytes) - 2 * kReach;

@@ -23,8 +23,9 @@ vec4 surfaceOf(const LightField& field, std::size_t sample);
 /// Whether any surface reflects other than diffusely.
 bool reflects(const LightField& field);
 
-/// Bands of rows that cover the pinhole positions of what is seen, each with as many rows around as the
-/// filter reaches: those that are changed are [firstRow, lastRow) of the texels.
+/// Bands of rows that cover the pinhole positions of what is seen (but for what is blurred by more than 128
+/// pixels, whose noise is little), each with as many rows around as the filter reaches: those that are
+/// changed are [firstRow, lastRow) of the texels.
 struct ShadingBand {
     ShadingLayout layout;
     int firstRow, lastRow;

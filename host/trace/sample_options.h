@@ -8,7 +8,7 @@ struct SampleOptions {
     int samplesPerPixel = 8;
     std::uint64_t seed = 0;
     SamplePlanes planes = {};               ///< to record; motion is recorded where anything moves
-    std::uint64_t memoryBytes = 4ull << 30; ///< budget of the light field
+    std::uint64_t memoryBytes = 8ull << 30; ///< budget of the light field
 };
 
 } // namespace slant

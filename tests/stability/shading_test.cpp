@@ -53,6 +53,26 @@ TEST(ShadingStability, noiseFallsAndTexturesAndBrightnessStay) {
         }
 }
 
+TEST(ShadingStability, pictureDoesNotDependOnTheOneBefore) {
+    const LightField field = lit(4, {});
+    ReconstructOptions options;
+    options.outputsPerPixel = 16;
+    options.anyFocus = true;
+    LensView other;
+    other.slopeShift = -20;
+    CpuReconstructor cpu;
+    const auto pictureAfter = [&](const std::vector<std::pair<LensView, ValuePlane>>& before) {
+        const auto prepared = cpu.prepare(field, options);
+        SilentMonitor monitor;
+        ReconstructReport report;
+        for (const auto& [view, plane] : before) prepared->picture(view, plane, monitor, report, nullptr);
+        return prepared->picture({}, ValuePlane::radiance, monitor, report, nullptr).pixels;
+    };
+    EXPECT_TRUE(pictureAfter({}) == pictureAfter({{other, ValuePlane::radiance}}));
+    EXPECT_TRUE(pictureAfter({}) ==
+                pictureAfter({{other, ValuePlane::radiance}, {other, ValuePlane::coverage}}));
+}
+
 /// Where light ends at a line, the filter never does harm, and its error falls as samples grow.
 TEST(ShadingStability, edgesOfShadowsStaySharp) {
     const auto shadow = [](vec2 p) { return p.x + 0.3f * p.y < 60 ? 1.f : 0.1f; };
