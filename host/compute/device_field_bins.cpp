@@ -37,8 +37,9 @@ void DeviceFieldBins::takeValues(CommandList& commands, ValuePlane plane) {
     commands.run();
 }
 
-void DeviceFieldBins::filterShading(CommandList& commands, const ShadingBand& band) {
-    ShadingPasses(device_, samples_).run(commands, bins_, band);
+void DeviceFieldBins::filterShading(CommandList& commands, const ShadingPlan& plan) {
+    const ShadingPasses passes(device_, samples_, plan.reflects);
+    for (const ShadingBand& band : plan.bands) passes.run(commands, bins_, band);
 }
 
 } // namespace slant

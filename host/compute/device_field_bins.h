@@ -16,7 +16,7 @@ public:
 
     void refocus(CommandList& commands, float slopeShift);
     void takeValues(CommandList& commands, ValuePlane plane);
-    void filterShading(CommandList& commands, const ShadingBand& band);
+    void filterShading(CommandList& commands, const ShadingPlan& plan);
     const DeviceBins& bins() const { return bins_; }
 
 private:

@@ -23,15 +23,6 @@ struct ShadingPasses::Surfels {
           changes(device, TexelFormat::rgba32f, parts * surfels) {}
 };
 
-namespace {
-
-std::array<std::uint32_t, 3> constantsOf(const LightField& field, bool reflects) {
-    const auto [compound, moving] = fieldConstants(false, field.moves());
-    return {compound, moving, reflects ? 1u : 0u};
-}
-
-} // namespace
-
 ShadingPasses::Inputs ShadingPasses::inputsOf(Device& device, const SceneSideSamples& samples,
                                               bool reflects) {
     const LightField& field = samples.field();
@@ -46,16 +37,15 @@ ShadingPasses::Inputs ShadingPasses::inputsOf(Device& device, const SceneSideSam
             light(ValuePlane::reflection, reflects ? count : 0)};
 }
 
-ShadingPasses::ShadingPasses(Device& device, const SceneSideSamples& samples)
-    : device_(device), samples_(samples), reflects_(reflects(samples.field())),
-      constants_(constantsOf(samples.field(), reflects_)), texels_(device, "shading_texels"),
-      start_(device, "list_start"), surfels_(device, "shading_surfels", constants_),
-      slopes_(device, "shading_slopes"), bands_(device, "shading_bands", constants_),
-      gains_(device, "shading_gains", constants_), apply_(device, "shading_apply", constants_),
-      inputs_(inputsOf(device, samples, reflects_)) {}
+ShadingPasses::ShadingPasses(Device& device, const SceneSideSamples& samples, bool reflects)
+    : device_(device), parts_(reflects ? 2 : 1), constants_{reflects ? 1u : 0u},
+      texels_(device, "shading_texels"), start_(device, "list_start"),
+      surfels_(device, "shading_surfels", constants_), slopes_(device, "shading_slopes"),
+      bands_(device, "shading_bands", constants_), gains_(device, "shading_gains", constants_),
+      apply_(device, "shading_apply", constants_), inputs_(inputsOf(device, samples, reflects)) {}
 
 void ShadingPasses::makeSurfels(CommandList& commands, const DeviceBins& bins, const ShadingBand& band,
-                                const Surfels& surfels) {
+                                const Surfels& surfels) const {
     const ShadingLayout& layout = band.layout;
     const uint records = bins.grid.sampleCount, texels = uint(layout.size.x) * uint(layout.size.y);
     PairBuffers pairs(device_, records), scratch(device_, records);
@@ -74,10 +64,10 @@ void ShadingPasses::makeSurfels(CommandList& commands, const DeviceBins& bins, c
     commands.run();
 }
 
-void ShadingPasses::run(CommandList& commands, const DeviceBins& bins, const ShadingBand& band) {
+void ShadingPasses::run(CommandList& commands, const DeviceBins& bins, const ShadingBand& band) const {
     const ivec2 size = band.layout.size;
     const std::uint64_t count = std::uint64_t(size.x) * std::uint64_t(size.y) * kSurfels;
-    Surfels s(device_, bins.grid.sampleCount, count, reflects_ ? 2 : 1);
+    Surfels s(device_, bins.grid.sampleCount, count, parts_);
     makeSurfels(commands, bins, band, s);
     const Grid grid = bands_.gridFor(count);
     commands.dispatch(slopes_, {s.geometry, s.slopes}, ShadingPush{size, 0}, grid);

@@ -7,11 +7,11 @@ namespace slant {
 
 class ShadingPasses {
 public:
-    /// The samples must outlive this.
-    ShadingPasses(Device& device, const SceneSideSamples& samples);
+    /// Uploads what the filter needs of the samples.
+    ShadingPasses(Device& device, const SceneSideSamples& samples, bool reflects);
 
     /// Runs on `commands`, which must be empty, and leaves it empty.
-    void run(CommandList& commands, const DeviceBins& bins, const ShadingBand& band);
+    void run(CommandList& commands, const DeviceBins& bins, const ShadingBand& band) const;
 
 private:
     /// Of each sample.
@@ -22,12 +22,11 @@ private:
 
     static Inputs inputsOf(Device& device, const SceneSideSamples& samples, bool reflects);
     void makeSurfels(CommandList& commands, const DeviceBins& bins, const ShadingBand& band,
-                     const Surfels& surfels);
+                     const Surfels& surfels) const;
 
     Device& device_;
-    const SceneSideSamples& samples_;
-    bool reflects_;
-    std::array<std::uint32_t, 3> constants_; ///< those of fieldConstants, and kReflects
+    std::uint64_t parts_;                    ///< of light
+    std::array<std::uint32_t, 1> constants_; ///< kReflects
     Pass texels_, start_, surfels_, slopes_, bands_, gains_, apply_;
     Inputs inputs_;
 };

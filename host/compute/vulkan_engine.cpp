@@ -19,13 +19,13 @@ void VulkanEngine::refocus(float slopeShift) {
 
 void VulkanEngine::takeValues(ValuePlane plane) {
     plane_ = plane;
-    shaded_.clear();
+    shading_.reset();
     if (bins_) bins_->takeValues(commands_, plane);
 }
 
-void VulkanEngine::filterShading(const ShadingBand& band) {
-    shaded_.push_back(band);
-    bins_->filterShading(commands_, band);
+void VulkanEngine::filterShading(const ShadingPlan& plan) {
+    shading_ = plan;
+    bins_->filterShading(commands_, plan);
 }
 
 void VulkanEngine::begin(PictureSetup setup) {
@@ -54,7 +54,7 @@ CpuEngine& VulkanEngine::cpu() {
     if (!cpuBegun_) {
         if (bins_) cpu_->refocus(slopeShift_);
         cpu_->takeValues(plane_);
-        for (const ShadingBand& band : shaded_) cpu_->filterShading(band);
+        if (shading_) cpu_->filterShading(*shading_);
         cpu_->begin(setup_);
         cpuBegun_ = true;
     }

@@ -20,7 +20,7 @@ public:
     void bin(const BinScope& scope) override;
     void refocus(float slopeShift) override;
     void takeValues(ValuePlane plane) override;
-    void filterShading(const ShadingBand& band) override;
+    void filterShading(const ShadingPlan& plan) override;
     const GridLayout& grid() const override { return bins_->bins().grid; }
     const MotionGrid& motion() const override { return bins_->bins().motion; }
     void begin(PictureSetup setup) override;
@@ -59,7 +59,7 @@ private:
     BinScope scope_;
     float slopeShift_ = 0;
     ValuePlane plane_ = ValuePlane::radiance;
-    std::vector<ShadingBand> shaded_; ///< whose shading is filtered
+    std::optional<ShadingPlan> shading_; ///< of the values, if theirs is filtered
     std::optional<CpuEngine> cpu_;
     bool cpuBegun_ = false;
 

@@ -17,7 +17,7 @@ public:
     void bin(const BinScope& scope) override { bins_.emplace(samples_, scope); }
     void refocus(float slopeShift) override { bins_->refocus(slopeShift); }
     void takeValues(ValuePlane plane) override;
-    void filterShading(const ShadingBand& band) override { bins_->filterShading(band); }
+    void filterShading(const ShadingPlan& plan) override { bins_->filterShading(plan); }
     const GridLayout& grid() const override { return bins_->bins().grid; }
     const MotionGrid& motion() const override { return bins_->bins().motion; }
     void begin(PictureSetup setup) override;

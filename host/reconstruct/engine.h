@@ -66,7 +66,7 @@ public:
     /// Values for the stages below: of the binned samples, or of `window` and `box`.
     virtual void takeValues(ValuePlane plane) = 0;
     /// Filters the shading of the binned samples, whose radiance was taken last.
-    virtual void filterShading(const ShadingBand& band) = 0;
+    virtual void filterShading(const ShadingPlan& plan) = 0;
     virtual const GridLayout& grid() const = 0;
     virtual const MotionGrid& motion() const = 0;
     /// An empty film.

@@ -19,7 +19,7 @@ public:
     /// From now on slopes are greater than the traced ones by this much.
     void refocus(float slopeShift);
     void takeValues(ValuePlane plane) { slant::takeValues(bins_, samples_, plane); }
-    void filterShading(const ShadingBand& band) { slant::filterShading(bins_, samples_, band); }
+    void filterShading(const ShadingPlan& plan) { slant::filterShading(bins_, samples_, plan); }
     const Bins& bins() const { return bins_; }
 
 private:

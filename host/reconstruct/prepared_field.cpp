@@ -192,10 +192,7 @@ Image PreparedField::picture(const LensView& view, ValuePlane plane, Monitor& mo
 void PreparedField::filterShading(ReconstructReport& report) {
     StageTimer timer(report, "shading", "samples");
     timer.items = samples_.samples().size();
-    const LightField& field = samples_.field();
-    for (const ShadingBand& band :
-         shadingBands(engine_->grid(), field.frame, reflects(field), options_.memoryBytes / 2))
-        engine_->filterShading(band);
+    engine_->filterShading(planShading(samples_.field(), engine_->grid(), options_.memoryBytes / 2));
     timer.bytes = engine_->peakBytes();
 }
 

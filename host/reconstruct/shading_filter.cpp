@@ -32,31 +32,26 @@ vec4 surfaceOf(const LightField& field, std::size_t sample) {
     return std::isfinite(nearness) && nearness > 0 ? vec4(normal, nearness) : vec4(0);
 }
 
-bool reflects(const LightField& field) {
-    return std::any_of(field.reflection.begin(), field.reflection.end(),
-                       [](const vec3& light) { return light != vec3(0); });
-}
-
-std::vector<ShadingBand> shadingBands(const GridLayout& grid, const Rect& region, bool reflects,
-                                      std::uint64_t bytes) {
+ShadingPlan planShading(const LightField& field, const GridLayout& grid, std::uint64_t bytes) {
+    const Rect& region = field.frame;
+    ShadingPlan plan{std::ranges::any_of(field.reflection, [](const vec3& v) { return v != vec3(0); }), {}};
     // Whatever the focus, so that pictures do not depend on the one before.
     const vec2 extent = vec2(grid.brickCount * grid.cellsPerBrick) / grid.invCell;
     const vec2 low = glm::max(vec2(float(region.x0), float(region.y0)) - kMaxBlurPx, grid.origin),
                high = glm::min(vec2(float(region.x1), float(region.y1)) + kMaxBlurPx, grid.origin + extent);
     const ivec2 first = glm::floor(low), last = glm::max(ivec2(glm::ceil(high)), first + 1);
     const std::uint64_t rowBytes = std::uint64_t(last.x - first.x) * kSurfels * sizeof(vec4) *
-                                   (kVec4PerSurfel + kVec4PerPart * (reflects ? 2 : 1));
+                                   (kVec4PerSurfel + kVec4PerPart * (plan.reflects ? 2 : 1));
     const std::int64_t fitting = std::int64_t(bytes / rowBytes) - 2 * kReach;
     const int rows =
         int(std::clamp<std::int64_t>(fitting, std::min(kLeastRows, last.y - first.y), last.y - first.y));
-    std::vector<ShadingBand> bands;
     for (int y = first.y; y < last.y; y += rows) {
         const int above = std::max(first.y, y - kReach), end = std::min(last.y, y + rows);
         const int below = std::min(last.y, end + kReach);
-        bands.push_back(
+        plan.bands.push_back(
             {{ivec2(first.x, above), ivec2(last.x - first.x, below - above)}, y - above, end - above});
     }
-    return bands;
+    return plan;
 }
 
 namespace {
@@ -255,11 +250,12 @@ private:
 
 } // namespace
 
-void filterShading(Bins& bins, const SceneSideSamples& samples, const ShadingBand& band) {
-    if (reflects(samples.field()))
-        ShadingFilter<true>(bins, samples, band).run();
-    else
-        ShadingFilter<false>(bins, samples, band).run();
+void filterShading(Bins& bins, const SceneSideSamples& samples, const ShadingPlan& plan) {
+    for (const ShadingBand& band : plan.bands)
+        if (plan.reflects)
+            ShadingFilter<true>(bins, samples, band).run();
+        else
+            ShadingFilter<false>(bins, samples, band).run();
 }
 
 } // namespace slant

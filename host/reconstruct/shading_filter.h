@@ -20,21 +20,22 @@ namespace slant {
 /// shade.
 vec4 surfaceOf(const LightField& field, std::size_t sample);
 
-/// Whether any surface reflects other than diffusely.
-bool reflects(const LightField& field);
-
-/// Bands of rows that cover the pinhole positions of what is seen (but for what is blurred by more than 128
-/// pixels, whose noise is little), each with as many rows around as the filter reaches: those that are
-/// changed are [firstRow, lastRow) of the texels.
+/// A band of rows of texels, with as many rows around as the filter reaches: those that are changed are
+/// [firstRow, lastRow).
 struct ShadingBand {
     ShadingLayout layout;
     int firstRow, lastRow;
 };
-/// In so many bytes each, if possible; a band changes eight rows at least.
-std::vector<ShadingBand> shadingBands(const GridLayout& grid, const Rect& region, bool reflects,
-                                      std::uint64_t bytes);
+struct ShadingPlan {
+    bool reflects; ///< some surface does other than diffusely, so that light has two parts
+    /// Cover the pinhole positions of what is seen, but for what is blurred by more than 128 pixels: its
+    /// noise is little.
+    std::vector<ShadingBand> bands;
+};
+/// Bands in so many bytes each, if possible; a band changes eight rows at least.
+ShadingPlan planShading(const LightField& field, const GridLayout& grid, std::uint64_t bytes);
 
-/// Filters the radiance of the bins, which they have taken last, where it lies in the band's rows.
-void filterShading(Bins& bins, const SceneSideSamples& samples, const ShadingBand& band);
+/// Filters the radiance of the bins, which they have taken last.
+void filterShading(Bins& bins, const SceneSideSamples& samples, const ShadingPlan& plan);
 
 } // namespace slant

@@ -111,20 +111,10 @@ glm::vec3 Bsdf::evaluate(glm::vec3 wi) const {
 }
 
 glm::vec3 Bsdf::evaluateDiffuse(glm::vec3 wi) const {
-    switch (kind_) {
-    case Kind::black:
-    case Kind::mirror:
-    case Kind::conductor:
-        return glm::vec3(0);
-    case Kind::diffuse:
-    case Kind::smoothCoat:
-        return evaluate(wi);
-    case Kind::roughCoat: {
-        glm::vec3 local = frame_.toLocal(wi);
-        return local.z > 0 ? baseValue(local) : glm::vec3(0);
-    }
-    }
-    return glm::vec3(0);
+    if (kind_ == Kind::conductor) return glm::vec3(0);
+    if (kind_ != Kind::roughCoat) return evaluate(wi);
+    glm::vec3 local = frame_.toLocal(wi);
+    return local.z > 0 ? baseValue(local) : glm::vec3(0);
 }
 
 float Bsdf::pdf(glm::vec3 wi) const {
@@ -220,18 +210,8 @@ glm::vec3 Bsdf::albedo() const {
 }
 
 glm::vec3 Bsdf::reflectance() const {
-    switch (kind_) {
-    case Kind::black:
-    case Kind::mirror:
-    case Kind::conductor:
-        return glm::vec3(0);
-    case Kind::diffuse:
-        return colour_;
-    case Kind::smoothCoat:
-    case Kind::roughCoat:
-        return colour_ * (kPi * coat_->meanTransmittance());
-    }
-    return glm::vec3(0);
+    if (kind_ == Kind::diffuse) return colour_;
+    return hasTwoLobes() ? colour_ * (kPi * coat_->meanTransmittance()) : glm::vec3(0);
 }
 
 } // namespace slant

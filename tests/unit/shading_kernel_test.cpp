@@ -90,12 +90,16 @@ TEST(ShadingFilter, bandsCoverAllRowsWithTheirSurroundings) {
     grid.brickCount = {20, 40};
     grid.bucketCount = 1;
     grid.invBucket = 1;
-    const Rect region{0, 0, 100, 500};
-    const std::vector<ShadingBand> whole = shadingBands(grid, region, false, 1 << 30);
+    LightField field;
+    field.frame = {0, 0, 100, 500};
+    field.reflection = {vec3(0), vec3(0, 1, 0)};
+    const ShadingPlan plan = planShading(field, grid, 1 << 30);
+    EXPECT_TRUE(plan.reflects);
+    const std::vector<ShadingBand>& whole = plan.bands;
     ASSERT_EQ(whole.size(), 1u);
     EXPECT_EQ(whole[0].firstRow, 0);
     EXPECT_EQ(whole[0].lastRow, whole[0].layout.size.y);
-    const std::vector<ShadingBand> cut = shadingBands(grid, region, true, 1 << 23);
+    const std::vector<ShadingBand> cut = planShading(field, grid, 1 << 23).bands;
     ASSERT_GT(cut.size(), 2u);
     int next = whole[0].layout.origin.y;
     for (const ShadingBand& band : cut) {
