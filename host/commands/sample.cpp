@@ -40,7 +40,9 @@ void runSample(const FieldOptions& options) {
     SampleOptions sampling;
     sampling.samplesPerPixel = scene.pixelSamples;
     sampling.seed = common.seed;
-    sampling.planes = {.albedo = options.auxiliary, .shading = options.shading};
+    sampling.planes = {.albedo = options.auxiliary,
+                       .shading = options.shading,
+                       .shadows = options.shading && hasSoftShadows(scene)};
     MotionMisses misses;
     const LightField field = traceLightField(tracer, scene, sampling, monitor, &misses);
 

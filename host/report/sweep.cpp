@@ -144,7 +144,8 @@ private:
             options_.methods, [](Method method) { return traitsOf(method).filtersShading; });
         const SampleOptions sampling{.samplesPerPixel = spp,
                                      .seed = options_.seed,
-                                     .planes = {.shading = filtered && hasShadingNoise(scene)}};
+                                     .planes = {.shading = filtered && hasShadingNoise(scene),
+                                                .shadows = filtered && hasSoftShadows(scene)}};
         LightField field;
         Timing trace;
         beginShare(scene, std::uint64_t(spp), options_.repeat + 1);

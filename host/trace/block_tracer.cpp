@@ -80,9 +80,19 @@ void BlockTracer::shade(int sample) {
         shadowRays[lane] = shadows_[lane].ray;
         if (!shadows_[lane].needed()) shadowRays[lane].tMax = 0;
     }
-    job_.geometry.occluded(shadowRays, occluded);
+    traceShadows(shadowRays, occluded);
     for (std::size_t lane = 0; lane < kLanes; ++lane)
         if (shadows_[lane].needed() && !occluded[lane]) paths_[lane].add(shadows_[lane]);
+}
+
+/// With the distances of what is in the way where the field wants to know them.
+void BlockTracer::traceShadows(std::span<const Ray> rays, std::span<std::uint8_t> occluded) {
+    if (job_.out.position.empty()) {
+        job_.geometry.occluded(rays, occluded);
+        return;
+    }
+    job_.geometry.distances(rays, blockers_);
+    for (std::size_t i = 0; i < rays.size(); ++i) occluded[i] = !std::isinf(blockers_[i]);
 }
 
 /// The rest of a path.
@@ -118,6 +128,7 @@ void BlockTracer::store(int i, int sample) {
         job_.out.illumination[index] = exposure * quotient(path.diffuse, reflectance);
         job_.out.reflectance[index] = reflectance;
         job_.out.reflection[index] = exposure * path.reflection;
+        if (!job_.out.position.empty()) storeShadow(i, index, exposure);
     }
     if (!job_.out.motion.empty()) {
         // The dark around a picture keeps still.
@@ -125,6 +136,24 @@ void BlockTracer::store(int i, int sample) {
         job_.out.motion[index] = fitted.motion;
         misses_.add(fitted.missPx);
     }
+}
+
+/// The shadow ray of a first vertex.
+void BlockTracer::storeShadow(int i, std::size_t index, float exposure) {
+    const std::size_t lane = std::size_t(i);
+    const glm::vec3 position = hits_[lane].position;
+    const ShadowRay& shadow = shadows_[lane];
+    glm::vec3 light = position, blocker = position, direct(0);
+    if (shadow.needed()) {
+        const float distance = std::isinf(shadow.ray.tMax) ? job_.farAway : shadow.ray.tMax;
+        light += distance * shadow.ray.direction;
+        blocker = std::isinf(blockers_[lane]) ? light : position + blockers_[lane] * shadow.ray.direction;
+        direct = exposure * quotient(shadow.diffuseShare * shadow.contribution, guides_[lane].reflectance);
+    }
+    job_.out.position[index] = position;
+    job_.out.light[index] = light;
+    job_.out.blocker[index] = blocker;
+    job_.out.direct[index] = direct;
 }
 
 } // namespace slant

@@ -181,6 +181,22 @@ void Geometry::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occlu
     }
 }
 
+void Geometry::distances(std::span<const Ray> rays, std::span<float> distances) const {
+    for (std::size_t first = 0; first < rays.size(); first += kPacket) {
+        auto part = rays.subspan(first, std::min<std::size_t>(kPacket, rays.size() - first));
+        RTCRayHit16 query;
+        alignas(64) int valid[kPacket];
+        fillPacket(part, query.ray, valid);
+        std::fill_n(query.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
+        std::fill_n(query.hit.instID[0], kPacket, RTC_INVALID_GEOMETRY_ID);
+        embree::intersect(impl_->world.still.scene.get(), valid, query);
+        for (std::size_t i = 0; i < part.size(); ++i)
+            distances[first + i] = query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID
+                                       ? std::numeric_limits<float>::infinity()
+                                       : query.ray.tfar[i];
+    }
+}
+
 Box Geometry::bounds() const {
     return impl_->world.still.bounds();
 }
