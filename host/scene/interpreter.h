@@ -16,11 +16,12 @@ namespace slant {
 
 class Monitor;
 
-/// Feed it the main text, then finish(). Throws Error(badInput) at the first thing that is wrong.
+/// Feed it the main text, then finish(). What is wrong or not supported goes to the issues, and reading goes
+/// on; throws Error(badInput) where that makes no sense.
 class Interpreter {
 public:
-    /// `directory` is where relative file names start. Both references must outlive this.
-    Interpreter(const std::string& directory, Scene& scene, Monitor& monitor);
+    /// `directory` is where relative file names start. All must outlive this.
+    Interpreter(const std::string& directory, Scene& scene, Issues& issues, Monitor& monitor);
 
     void run(const std::string& name, const std::string& text);
     void finish();
@@ -53,9 +54,10 @@ private:
     void attributeEnd(Tokenizer& tokens, const Position& where);
     void transformBegin(Tokenizer& tokens, const Position& where);
     void attribute(Tokenizer& tokens, const Position& where);
+    void place(const PendingInstance& instance);
     void push(bool isObject, const Position& where);
     void pop(bool isObject, const char* directive, const char* opening, const Position& where);
-    void warn(const Position& where, const std::string& message);
+    void carryOut(const Directive& directive, Tokenizer& tokens, const Position& where);
 
     // interpreter_transforms.cpp
     void identity(Tokenizer& tokens, const Position& where);
@@ -82,6 +84,7 @@ private:
     void option(Tokenizer& tokens, const Position& where);
     void colorSpace(Tokenizer& tokens, const Position& where);
     void mediumInterface(Tokenizer& tokens, const Position& where);
+    void makeNamedMedium(Tokenizer& tokens, const Position& where);
     void reverseOrientation(Tokenizer& tokens, const Position& where);
     void material(Tokenizer& tokens, const Position& where);
     void makeNamedMaterial(Tokenizer& tokens, const Position& where);
@@ -101,7 +104,7 @@ private:
     MovingTransform placement(const Position& where) const;
 
     Scene& scene_;
-    Monitor& monitor_;
+    Issues& issues_;
     SceneFiles files_;
     TextureTable textures_;
     MaterialTable materials_;

@@ -1,5 +1,4 @@
 // The directives that make film, camera, materials, lights and shapes.
-#include "base/monitor.h"
 #include "base/suggest.h"
 #include "scene/interpreter.h"
 #include "scene/light_reader.h"
@@ -42,15 +41,20 @@ std::string normalized(const std::string& name) {
     return result;
 }
 
+/// A sample has one depth, so none that is in a medium's midst.
+Unsupported noMedia(const Position& where) {
+    return unsupported(where, "participating media are not supported");
+}
+
 } // namespace
 
 ParameterList Interpreter::list(const std::string& subject, Tokenizer& tokens, const Position& where) {
-    return {where, subject, readParameters(tokens)};
+    return {where, subject, readParameters(tokens), issues_};
 }
 
 ParameterList Interpreter::list(const std::string& subject, Tokenizer& tokens, const Position& where,
                                 AttributeTarget target) {
-    return {where, subject, readParameters(tokens), state_.defaults[std::size_t(target)]};
+    return {where, subject, readParameters(tokens), issues_, state_.defaults[std::size_t(target)]};
 }
 
 void Interpreter::setOption(const char* directive, Tokenizer& tokens, const Position& where) {
@@ -90,31 +94,34 @@ void Interpreter::option(Tokenizer& tokens, const Position&) {
     const std::string key = normalized(stringOf(name));
     const Token value = tokens.next();
     if (value.kind != TokenKind::word && value.kind != TokenKind::string)
-        throw badInput(value.position, "expected the value of option {}, found {}", name.shown(),
-                       value.shown());
+        throw syntaxError(value.position, "expected the value of option {}, found {}", name.shown(),
+                          value.shown());
     const auto known = std::find_if(std::begin(kOptions), std::end(kOptions),
                                     [&](const KnownOption& o) { return o.name == key; });
     if (known == std::end(kOptions)) {
         std::vector<std::string_view> names;
         for (const KnownOption& o : kOptions) names.push_back(o.name);
-        throw badInput(name.position, "unknown option {}{}", name.shown(), didYouMean(key, names));
+        throw unsupported(name.position, "unknown option {}{}", name.shown(), didYouMean(key, names));
     }
     if (known->effect == OptionEffect::unlessFalse && value.text != "false")
-        throw badInput(value.position, "option {} is supported only as false", name.shown());
+        throw unsupported(value.position, "option {} is supported only as false", name.shown());
 }
 
 void Interpreter::colorSpace(Tokenizer& tokens, const Position&) {
     const Token token = tokens.next();
     if (stringOf(token) != "srgb")
-        throw badInput(token.position, "colour space {} is not supported, only \"srgb\"", token.shown());
+        throw unsupported(token.position, "colour space {} is not supported, only \"srgb\"", token.shown());
 }
 
 void Interpreter::mediumInterface(Tokenizer& tokens, const Position&) {
     do {
         const Token token = tokens.next();
-        if (!stringOf(token).empty())
-            throw badInput(token.position, "participating media are not supported, only \"\"");
+        if (!stringOf(token).empty()) throw noMedia(token.position);
     } while (tokens.peek().kind == TokenKind::string);
+}
+
+void Interpreter::makeNamedMedium(Tokenizer&, const Position& where) {
+    throw noMedia(where);
 }
 
 void Interpreter::reverseOrientation(Tokenizer&, const Position&) {
@@ -139,7 +146,7 @@ void Interpreter::namedMaterial(Tokenizer& tokens, const Position& where) {
 
 void Interpreter::warnIfMoving(const char* what, const Position& where) {
     if (state_.transform.moves())
-        warn(where, fmt::format("{} does not move; its transform at the start is used", what));
+        issues_.note(where, fmt::format("{} does not move; its transform at the start is used", what));
 }
 
 void Interpreter::texture(Tokenizer& tokens, const Position& where) {
@@ -170,6 +177,7 @@ void Interpreter::areaLightSource(Tokenizer& tokens, const Position& where) {
     const std::string kind = stringOf(tokens.next());
     ParameterList parameters =
         list(fmt::format("AreaLightSource \"{}\"", printable(kind)), tokens, where, AttributeTarget::light);
+    state_.areaLightIndex = -1;
     scene_.areaLights.push_back(readAreaLight(kind, parameters));
     state_.areaLightIndex = int(scene_.areaLights.size()) - 1;
 }
@@ -188,7 +196,7 @@ void Interpreter::shape(Tokenizer& tokens, const Position& where) {
     const MovingTransform worldFromObject = placement(where);
     const bool inObject = openObject_ >= 0;
     if (inObject && state_.areaLightIndex >= 0)
-        warn(where, "shapes of an object cannot emit light, as in pbrt; this one is dark");
+        issues_.note(where, "shapes of an object cannot emit light, as in pbrt; this one is dark");
     auto& target = inObject ? scene_.objects[std::size_t(openObject_)].shapes : scene_.shapes;
     for (Shape& shape : readShapes(kind, parameters, scene_, files_)) {
         shape.worldFromObject = worldFromObject;
@@ -201,9 +209,9 @@ void Interpreter::shape(Tokenizer& tokens, const Position& where) {
 
 void Interpreter::objectBegin(Tokenizer& tokens, const Position& where) {
     const std::string name = stringOf(tokens.next());
-    if (openObject_ >= 0) throw badInput(where, "ObjectBegin within ObjectBegin");
+    if (openObject_ >= 0) throw syntaxError(where, "ObjectBegin within ObjectBegin");
     if (!objects_.try_emplace(name, int(scene_.objects.size())).second)
-        throw badInput(where, "the object '{}' is defined twice", printable(name));
+        throw syntaxError(where, "the object '{}' is defined twice", printable(name));
     push(true, where);
     openObject_ = int(scene_.objects.size());
     scene_.objects.push_back({name, {}});
@@ -216,7 +224,7 @@ void Interpreter::objectEnd(Tokenizer&, const Position& where) {
 
 void Interpreter::objectInstance(Tokenizer& tokens, const Position& where) {
     const std::string name = stringOf(tokens.next());
-    if (openObject_ >= 0) throw badInput(where, "ObjectInstance within ObjectBegin");
+    if (openObject_ >= 0) throw syntaxError(where, "ObjectInstance within ObjectBegin");
     instances_.push_back({name, placement(where), where});
 }
 

@@ -78,16 +78,16 @@ Light readLight(const std::string& kind, ParameterList& parameters, const glm::d
     else if (kind == "infinite")
         readInfinite(light, parameters, scene, files);
     else
-        throw badInput(parameters.position(), "light \"{}\" is not supported{}", printable(kind),
-                       didYouMean(kind, kKinds));
+        throw unsupported(parameters.position(), "light \"{}\" is not supported{}", printable(kind),
+                          didYouMean(kind, kKinds));
     parameters.finish();
     return light;
 }
 
 AreaLight readAreaLight(const std::string& kind, ParameterList& parameters) {
     if (kind != "diffuse")
-        throw badInput(parameters.position(), "area light \"{}\" is not supported{}", printable(kind),
-                       didYouMean(kind, kAreaKinds));
+        throw unsupported(parameters.position(), "area light \"{}\" is not supported{}", printable(kind),
+                          didYouMean(kind, kAreaKinds));
     AreaLight light;
     light.radiance = emission(parameters, "L");
     light.scale = parameters.number("scale", 1, kNonNegative);

@@ -66,16 +66,16 @@ Material readMaterial(const std::string& kind, ParameterList& parameters, Textur
     else if (kind == "conductor")
         readConductor(material, parameters, textures);
     else
-        throw badInput(parameters.position(), "material \"{}\" is not supported{}", printable(kind),
-                       didYouMean(kind, kKinds));
+        throw unsupported(parameters.position(), "material \"{}\" is not supported{}", printable(kind),
+                          didYouMean(kind, kKinds));
     parameters.finish();
     return material;
 }
 
 } // namespace
 
-MaterialTable::MaterialTable() {
-    add("diffuse", ParameterList({}, "Material \"diffuse\"", {}));
+MaterialTable::MaterialTable(Issues& issues) : issues_(issues) {
+    add("diffuse", ParameterList({}, "Material \"diffuse\"", {}, issues));
 }
 
 int MaterialTable::add(const std::string& kind, ParameterList parameters) {
@@ -99,20 +99,26 @@ void MaterialTable::define(const std::string& name, ParameterList parameters) {
     Entry& entry = entries_[std::size_t(indexOf(name, where))];
     if (entry.parameters) throw badInput(where, "the material '{}' is made twice", printable(name));
     const std::optional<std::string> kind = parameters.text("type");
+    entry = {name, where, kind.value_or("diffuse"), std::move(parameters)};
     if (!kind) throw badInput(where, "MakeNamedMaterial \"{}\" needs \"string type\"", printable(name));
-    entry = {name, where, *kind, std::move(parameters)};
+}
+
+Material MaterialTable::built(Entry& entry, TextureTable& textures) const {
+    if (entry.parameters) return readMaterial(entry.kind, *entry.parameters, textures);
+    std::vector<std::string_view> names;
+    for (const auto& [name, index] : named_)
+        if (entries_[std::size_t(index)].parameters) names.push_back(name);
+    throw badInput(entry.where, "there is no material '{}'{}", printable(entry.name),
+                   didYouMean(entry.name, names));
 }
 
 void MaterialTable::build(Scene& scene, TextureTable& textures) {
     for (Entry& entry : entries_) {
-        if (!entry.parameters) {
-            std::vector<std::string_view> names;
-            for (const auto& [name, index] : named_)
-                if (entries_[std::size_t(index)].parameters) names.push_back(name);
-            throw badInput(entry.where, "there is no material '{}'{}", printable(entry.name),
-                           didYouMean(entry.name, names));
-        }
-        scene.materials.push_back(readMaterial(entry.kind, *entry.parameters, textures));
+        Material material;
+        const auto work = [&] { material = built(entry, textures); };
+        if (!issues_.attempt("grey stands in, diffuse with a reflectance of 0.5", work))
+            material = {.reflectance = textures.constant(glm::vec3(0.5f))};
+        scene.materials.push_back(material);
     }
 }
 

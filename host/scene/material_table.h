@@ -16,7 +16,8 @@ class TextureTable;
 /// be named before it is made. Index 0 is pbrt's default, diffuse.
 class MaterialTable {
 public:
-    MaterialTable();
+    /// `issues` must outlive this.
+    explicit MaterialTable(Issues& issues);
 
     /// Material: index of a new material.
     int add(const std::string& kind, ParameterList parameters);
@@ -25,7 +26,7 @@ public:
     /// NamedMaterial: index of the material of that name.
     int use(const std::string& name, const Position& where);
 
-    /// Fills `scene.materials`. Throws Error(badInput), also for names that were used but never made.
+    /// Fills `scene.materials`; names that were used but never made are issues. Grey stands in.
     void build(Scene& scene, TextureTable& textures);
 
 private:
@@ -37,7 +38,9 @@ private:
     };
 
     int indexOf(const std::string& name, const Position& where);
+    Material built(Entry& entry, TextureTable& textures) const;
 
+    Issues& issues_;
     std::vector<Entry> entries_;
     std::map<std::string, int> named_;
 };

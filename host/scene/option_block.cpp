@@ -1,6 +1,5 @@
 #include "scene/option_block.h"
 
-#include "base/monitor.h"
 #include "base/suggest.h"
 #include "scene/lens_file.h"
 #include "scene/scene_files.h"
@@ -29,11 +28,11 @@ constexpr std::string_view kIntegrators[] = {"path", "volpath"};
 void checkKind(std::string_view family, const std::string& kind, std::span<const std::string_view> kinds,
                const ParameterList& parameters) {
     if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
-        throw badInput(parameters.position(), "{} \"{}\" is not supported{}", family, printable(kind),
-                       didYouMean(kind, kinds));
+        throw unsupported(parameters.position(), "{} \"{}\" is not supported{}", family, printable(kind),
+                          didYouMean(kind, kinds));
 }
 
-Rect pixelBounds(const Film& film, ParameterList& parameters, Monitor& monitor) {
+Rect pixelBounds(const Film& film, ParameterList& parameters, Issues& issues) {
     const Rect whole{0, 0, film.xResolution, film.yResolution};
     const std::vector<int> bounds = parameters.integers("pixelbounds");
     if (bounds.empty()) return whole;
@@ -41,8 +40,7 @@ Rect pixelBounds(const Film& film, ParameterList& parameters, Monitor& monitor) 
     if (bounds.size() != 4) throw badInput(where, "'pixelbounds' needs four numbers: x0, x1, y0, y1");
     const Rect asked{bounds[0], bounds[2], bounds[1], bounds[3]};
     if (asked.intersect(whole) != asked)
-        monitor.warn(FileLocation(where).text() +
-                     ": 'pixelbounds' reach beyond the film and are clipped to it");
+        issues.note(where, "'pixelbounds' reach beyond the film and are clipped to it");
     return asked.intersect(whole);
 }
 
@@ -58,7 +56,7 @@ Rect cropped(const Film& film, const std::vector<float>& window, const Position&
             pixel(film.yResolution, std::max(window[2], window[3]))};
 }
 
-Film readFilm(const std::string& kind, ParameterList& parameters, float exposureTime, Monitor& monitor) {
+Film readFilm(const std::string& kind, ParameterList& parameters, float exposureTime, Issues& issues) {
     checkKind("film", kind, std::array<std::string_view, 1>{"rgb"}, parameters);
     Film film;
     film.xResolution = parameters.integer("xresolution", 1280, 1, kMaxResolution);
@@ -66,14 +64,15 @@ Film readFilm(const std::string& kind, ParameterList& parameters, float exposure
     if (std::int64_t(film.xResolution) * film.yResolution > kMaxPixels)
         throw badInput(parameters.position(), "{}x{} pixels are more than the limit of {}", film.xResolution,
                        film.yResolution, kMaxPixels);
-    film.crop = pixelBounds(film, parameters, monitor);
+    film.crop = pixelBounds(film, parameters, issues);
     if (const std::vector<float> window = parameters.numbers("cropwindow"); !window.empty())
         film.crop = cropped(film, window, parameters.positionOf("cropwindow"));
     if (film.crop.empty()) throw badInput(parameters.position(), "the crop leaves no pixel of the film");
     film.filename = parameters.text("filename").value_or(film.filename);
     parameters.choice("sensor", "cie1931", {"cie1931"});
     if (parameters.number("whitebalance", 0) != 0)
-        throw badInput(parameters.positionOf("whitebalance"), "'whitebalance' other than 0 is not supported");
+        parameters.report(unsupported(parameters.positionOf("whitebalance"),
+                                      "'whitebalance' other than 0 is not supported"));
     film.imagingRatio = exposureTime * parameters.number("iso", 100, kPositive) / 100;
     film.maxComponentValue = parameters.number("maxcomponentvalue", kPositive).value_or(0);
     film.diagonalMm = parameters.number("diagonal", 35, kPositive);
@@ -136,7 +135,7 @@ void readPerspective(PerspectiveCamera& camera, ParameterList& parameters, const
 }
 
 RealisticCamera readRealistic(ParameterList& parameters, const SceneFiles& files, const std::string& path,
-                              Monitor& monitor) {
+                              Issues& issues) {
     RealisticCamera camera;
     camera.lens = readLens(path, parameters.positionOf("lensfile"));
     camera.aperture = readShape(parameters, files);
@@ -146,10 +145,9 @@ RealisticCamera readRealistic(ParameterList& parameters, const SceneFiles& files
     if (const double widest = camera.lens.surfaces[camera.lens.stop].diameter;
         camera.apertureDiameterMm > widest) {
         if (camera.apertureDiameterMm > double(float(widest)))
-            monitor.warn(
-                fmt::format("{}: 'aperturediameter' is {} mm, but the stop of {} opens to {} mm only",
-                            FileLocation(parameters.positionOf("aperturediameter")).text(),
-                            camera.apertureDiameterMm, path, widest));
+            issues.note(parameters.positionOf("aperturediameter"),
+                        fmt::format("'aperturediameter' is {} mm, but the stop of {} opens to {} mm only",
+                                    camera.apertureDiameterMm, path, widest));
         camera.apertureDiameterMm = widest;
     }
     return camera;
@@ -188,7 +186,7 @@ int readIntegrator(const std::string& kind, ParameterList& parameters) {
     const int maxDepth = parameters.integer("maxdepth", 5, 0, kMaxPathDepth);
     parameters.ignore({"lightsampler"});
     if (parameters.flag("regularize", false))
-        throw badInput(parameters.positionOf("regularize"), "'regularize' is not supported");
+        parameters.report(unsupported(parameters.positionOf("regularize"), "'regularize' is not supported"));
     parameters.finish();
     return maxDepth;
 }
@@ -201,36 +199,45 @@ void OptionBlock::set(const std::string& directive, const std::string& kind, Par
 
 OptionBlock::Entity& OptionBlock::entity(const std::string& directive, const std::string& defaultKind) {
     const auto entry = entities_.try_emplace(
-        directive,
-        Entity{defaultKind, ParameterList({}, fmt::format("{} \"{}\"", directive, defaultKind), {})});
+        directive, Entity{defaultKind,
+                          ParameterList({}, fmt::format("{} \"{}\"", directive, defaultKind), {}, issues_)});
     return entry.first->second;
 }
 
-void OptionBlock::resolve(Scene& scene, const SceneFiles& files, Monitor& monitor) {
-    Entity& camera = entity("Camera", "perspective");
-    Entity& film = entity("Film", "rgb");
-    Entity& filter = entity("PixelFilter", "gaussian");
-    Entity& sampler = entity("Sampler", "zsobol");
-    Entity& integrator = entity("Integrator", "volpath");
-    scene.camera = readShutter(camera.kind, camera.parameters);
-    scene.camera.worldFromCamera = overShutter(
-        worldFromCamera_, cameraTimes_, double(scene.camera.shutterOpen), double(scene.camera.shutterClose));
-    scene.film =
-        readFilm(film.kind, film.parameters, scene.camera.shutterClose - scene.camera.shutterOpen, monitor);
+void OptionBlock::resolveCamera(Scene& scene, Entity& camera, const SceneFiles& files) {
     if (camera.kind == "realistic") {
         const std::optional<std::string> lens = camera.parameters.text("lensfile");
         if (!lens)
             throw badInput(camera.parameters.position(), "Camera \"realistic\" needs \"string lensfile\"");
-        scene.realistic = readRealistic(camera.parameters, files, files.resolve(*lens), monitor);
+        scene.realistic = readRealistic(camera.parameters, files, files.resolve(*lens), issues_);
         scene.files.push_back(scene.realistic->lens.path);
     } else {
         readPerspective(scene.camera, camera.parameters, files);
         readScreen(scene.camera, camera.parameters, scene.film);
     }
     camera.parameters.finish();
-    scene.filter = readFilter(filter.kind, filter.parameters);
-    scene.pixelSamples = readSampler(sampler.kind, sampler.parameters);
-    scene.maxDepth = readIntegrator(integrator.kind, integrator.parameters);
+}
+
+void OptionBlock::resolve(Scene& scene, const SceneFiles& files) {
+    Entity& camera = entity("Camera", "perspective");
+    Entity& film = entity("Film", "rgb");
+    Entity& filter = entity("PixelFilter", "gaussian");
+    Entity& sampler = entity("Sampler", "zsobol");
+    Entity& integrator = entity("Integrator", "volpath");
+    const bool hasShutter =
+        issues_.attempt("", [&] { scene.camera = readShutter(camera.kind, camera.parameters); });
+    scene.camera.worldFromCamera = overShutter(
+        worldFromCamera_, cameraTimes_, double(scene.camera.shutterOpen), double(scene.camera.shutterClose));
+    const float exposureTime = scene.camera.shutterClose - scene.camera.shutterOpen;
+    issues_.attempt("the film is \"rgb\" of 1280x720",
+                    [&] { scene.film = readFilm(film.kind, film.parameters, exposureTime, issues_); });
+    if (hasShutter) issues_.attempt("", [&] { resolveCamera(scene, camera, files); });
+    issues_.attempt("the filter is \"gaussian\"",
+                    [&] { scene.filter = readFilter(filter.kind, filter.parameters); });
+    issues_.attempt("16 samples are taken of a pixel",
+                    [&] { scene.pixelSamples = readSampler(sampler.kind, sampler.parameters); });
+    issues_.attempt("the integrator is \"path\"",
+                    [&] { scene.maxDepth = readIntegrator(integrator.kind, integrator.parameters); });
 }
 
 } // namespace slant

@@ -34,11 +34,11 @@ const Type& typeOf(const std::string& name, const Position& position) {
         if (type.name == name) return type;
     for (const auto& [old, current] : kRenamed)
         if (name == old)
-            throw badInput(position, "parameter type '{}' is not from pbrt-v4; did you mean '{}'?", name,
-                           current);
+            throw syntaxError(position, "parameter type '{}' is not from pbrt-v4; did you mean '{}'?", name,
+                              current);
     std::vector<std::string_view> names;
     for (const Type& type : kTypes) names.push_back(type.name);
-    throw badInput(position, "unknown parameter type '{}'{}", printable(name), didYouMean(name, names));
+    throw syntaxError(position, "unknown parameter type '{}'{}", printable(name), didYouMean(name, names));
 }
 
 /// Splits "type name" of a declaration.
@@ -51,8 +51,8 @@ Parameter declared(const Token& token) {
     const auto [typeFirst, typeEnd] = word(0);
     const auto [nameFirst, nameEnd] = word(typeEnd);
     if (nameFirst == text.size() || word(nameEnd).first != text.size())
-        throw badInput(token.position, "expected a parameter such as \"float radius\", found {}",
-                       token.shown());
+        throw syntaxError(token.position, "expected a parameter such as \"float radius\", found {}",
+                          token.shown());
     Parameter parameter;
     parameter.type = text.substr(typeFirst, typeEnd - typeFirst);
     parameter.name = text.substr(nameFirst, nameEnd - nameFirst);
@@ -63,7 +63,7 @@ Parameter declared(const Token& token) {
 bool flagOf(const Token& token) {
     if (token.kind == TokenKind::word && (token.text == "true" || token.text == "false"))
         return token.text == "true";
-    throw badInput(token.position, "expected true or false (without quotes), found {}", token.shown());
+    throw syntaxError(token.position, "expected true or false (without quotes), found {}", token.shown());
 }
 
 void appendValue(Parameter& parameter, Values values, const Token& token) {
@@ -98,17 +98,17 @@ Parameter readParameter(Tokenizer& tokens) {
     if (token.kind == TokenKind::open) {
         const Position opened = token.position;
         for (token = tokens.next(); token.kind != TokenKind::close; token = tokens.next()) {
-            if (token.kind == TokenKind::end) throw badInput(opened, "this '[' is never closed");
+            if (token.kind == TokenKind::end) throw syntaxError(opened, "this '[' is never closed");
             appendValue(parameter, type.values, token);
         }
     } else {
         appendValue(parameter, type.values, token);
     }
     if (parameter.numbers.empty() && parameter.strings.empty() && parameter.flags.empty())
-        throw badInput(parameter.position, "parameter '{}' has no values", printable(parameter.name));
+        throw syntaxError(parameter.position, "parameter '{}' has no values", printable(parameter.name));
     if (parameter.numbers.size() % type.perItem != 0)
-        throw badInput(parameter.position, "'{}' has {} numbers, not a multiple of {} as type {} needs",
-                       printable(parameter.name), parameter.numbers.size(), type.perItem, type.name);
+        throw syntaxError(parameter.position, "'{}' has {} numbers, not a multiple of {} as type {} needs",
+                          printable(parameter.name), parameter.numbers.size(), type.perItem, type.name);
     return parameter;
 }
 
@@ -127,9 +127,9 @@ ParameterVector readParameters(Tokenizer& tokens) {
     return parameters;
 }
 
-ParameterList::ParameterList(Position position, std::string subject, ParameterVector own,
+ParameterList::ParameterList(Position position, std::string subject, ParameterVector own, Issues& issues,
                              const ParameterVector& inherited)
-    : position_(position), subject_(std::move(subject)) {
+    : position_(position), subject_(std::move(subject)), issues_(&issues) {
     for (auto parameter = own.rbegin(); parameter != own.rend(); ++parameter)
         entries_.push_back({std::move(*parameter), false});
     for (auto parameter = inherited.rbegin(); parameter != inherited.rend(); ++parameter)
@@ -251,13 +251,13 @@ void ParameterList::ignore(Types names) {
     for (const std::string_view name : names) asked_.emplace_back(name);
 }
 
-void ParameterList::finish() const {
+void ParameterList::finish() {
     for (auto entry = entries_.rbegin(); entry != entries_.rend(); ++entry) {
         const Parameter& parameter = *entry->parameter;
         if (entry->inherited || asked(parameter.name)) continue;
         const std::vector<std::string_view> names(asked_.begin(), asked_.end());
-        throw badInput(parameter.position, "{} has no parameter '{}', or none that is supported{}", subject_,
-                       printable(parameter.name), didYouMean(parameter.name, names));
+        report(unsupported(parameter.position, "{} has no parameter '{}', or none that is supported{}",
+                           subject_, printable(parameter.name), didYouMean(parameter.name, names)));
     }
 }
 

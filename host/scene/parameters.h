@@ -1,6 +1,7 @@
 // Parameter lists of directives: `"type name" values...`, typed look-ups with defaults, and the rule that an
-// unused parameter is an error.
+// unused parameter is not supported.
 #pragma once
+#include "scene/issues.h"
 #include "scene/tokenizer.h"
 
 #include <glm/glm.hpp>
@@ -27,7 +28,7 @@ struct Parameter {
 /// Shared, so that attribute defaults are not copied for each shape.
 using ParameterVector = std::vector<std::shared_ptr<const Parameter>>;
 
-/// Reads what follows a directive up to the next word. Throws Error(badInput).
+/// Reads what follows a directive up to the next word. Throws SyntaxError.
 ParameterVector readParameters(Tokenizer& tokens);
 
 /// Values that a number may have.
@@ -46,8 +47,8 @@ class ParameterList {
 public:
     using Types = std::initializer_list<std::string_view>;
 
-    /// `subject` names the owner in messages, e.g. `Shape "sphere"`.
-    ParameterList(Position position, std::string subject, ParameterVector own,
+    /// `subject` names the owner in messages, e.g. `Shape "sphere"`. `issues` must outlive the list.
+    ParameterList(Position position, std::string subject, ParameterVector own, Issues& issues,
                   const ParameterVector& inherited = {});
 
     const Position& position() const { return position_; }
@@ -75,8 +76,12 @@ public:
 
     /// Accepts parameters that cannot change the picture.
     void ignore(Types names);
-    /// Throws at the first unused parameter.
-    void finish() const;
+    /// Adds what is not supported to the issues, and lets its owner go on without it.
+    void report(const Unsupported& error) {
+        issues_->attempt("it is ignored", [&] { throw error; });
+    }
+    /// Reports the parameters that nobody asked for.
+    void finish();
 
 private:
     struct Entry {
@@ -89,6 +94,7 @@ private:
 
     Position position_;
     std::string subject_;
+    Issues* issues_;
     std::vector<Entry> entries_; // in order of precedence
     std::vector<std::string> asked_;
 };

@@ -15,7 +15,7 @@ constexpr std::string_view kKinds[] = {"trianglemesh", "bilinearmesh", "plymesh"
 void refuseAlpha(ParameterList& parameters) {
     const Parameter* alpha = parameters.find("alpha", {"float", "texture"});
     if (alpha && (alpha->type == "texture" || alpha->numbers[0] != 1))
-        throw badInput(alpha->position, "'alpha' is not supported");
+        parameters.report(unsupported(alpha->position, "'alpha' is not supported"));
 }
 
 void checkSize(ParameterList& parameters, std::string_view name, std::size_t count, std::size_t vertices) {
@@ -113,8 +113,8 @@ std::vector<Shape> readShapes(const std::string& kind, ParameterList& parameters
     } else if (kind == "disk") {
         shapes = {readDisk(parameters)};
     } else {
-        throw badInput(parameters.position(), "shape \"{}\" is not supported{}", printable(kind),
-                       didYouMean(kind, kKinds));
+        throw unsupported(parameters.position(), "shape \"{}\" is not supported{}", printable(kind),
+                          didYouMean(kind, kKinds));
     }
     parameters.finish();
     for (Shape& shape : shapes) shape.location = parameters.position();

@@ -89,15 +89,19 @@ void TextureTable::buildAll() {
 int TextureTable::build(Definition& definition) {
     if (definition.index >= 0) return definition.index;
     if (definition.inProgress)
-        throw badInput(definition.parameters.position(), "this texture is made of itself");
+        throw syntaxError(definition.parameters.position(), "this texture is made of itself");
     if (depth_ >= kMaxTextureDepth)
-        throw badInput(definition.parameters.position(), "textures are nested more than {} deep",
-                       kMaxTextureDepth);
+        throw syntaxError(definition.parameters.position(), "textures are nested more than {} deep",
+                          kMaxTextureDepth);
     definition.inProgress = true;
     ++depth_;
-    const Texture texture = make(definition);
+    Texture texture;
+    const auto work = [&] {
+        texture = make(definition);
+        definition.parameters.finish();
+    };
+    if (!issues_.attempt("a constant of 0.5 stands in", work)) texture = {.value = glm::vec3(0.5f)};
     --depth_;
-    definition.parameters.finish();
     scene_.textures.push_back(texture);
     return definition.index = int(scene_.textures.size()) - 1;
 }
@@ -126,16 +130,16 @@ Texture TextureTable::make(Definition& definition) {
         texture.kind = TextureKind::checkerboard;
         texture.child = {child(definition, "tex1", 1), child(definition, "tex2", 0), -1};
         if (parameters.integer("dimension", 2, 2, 3) == 3)
-            throw badInput(parameters.positionOf("dimension"),
-                           "checkerboards of dimension 3 are not supported");
+            throw unsupported(parameters.positionOf("dimension"),
+                              "checkerboards of dimension 3 are not supported");
         readMapping(texture, definition);
     } else if (definition.kind == "imagemap") {
         texture.kind = TextureKind::imagemap;
         readMapping(texture, definition);
         readImage(texture, definition);
     } else {
-        throw badInput(parameters.position(), "texture kind \"{}\" is not supported{}",
-                       printable(definition.kind), didYouMean(definition.kind, kKinds));
+        throw unsupported(parameters.position(), "texture kind \"{}\" is not supported{}",
+                          printable(definition.kind), didYouMean(definition.kind, kKinds));
     }
     return texture;
 }

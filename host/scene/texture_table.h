@@ -16,8 +16,9 @@ class SceneFiles;
 /// so definitions are kept and built when first needed.
 class TextureTable {
 public:
-    /// Both must outlive this.
-    TextureTable(Scene& scene, SceneFiles& files) : scene_(scene), files_(files) {}
+    /// All must outlive this.
+    TextureTable(Scene& scene, SceneFiles& files, Issues& issues)
+        : scene_(scene), files_(files), issues_(issues) {}
 
     /// `isFloat`: else a spectrum texture; the two have names of their own. `textureFromWorld` is the inverse
     /// of the transform at the directive. Throws Error(badInput) if the name is taken.
@@ -30,6 +31,8 @@ public:
     int spectrumTexture(ParameterList& parameters, std::string_view name, SpectrumUse use,
                         std::optional<glm::vec3> fallback);
 
+    /// Index of a texture of one value.
+    int constant(glm::vec3 value);
     /// Builds unused textures too, so that their errors are found.
     void buildAll();
 
@@ -44,7 +47,6 @@ private:
     };
     using Key = std::pair<bool, std::string>; // float?, name
 
-    int constant(glm::vec3 value);
     int named(bool isFloat, const Parameter& parameter);
     int build(Definition& definition);
     Texture make(Definition& definition);
@@ -54,6 +56,7 @@ private:
 
     Scene& scene_;
     SceneFiles& files_;
+    Issues& issues_;
     std::map<Key, Definition> definitions_;
     int depth_ = 0;
 };
