@@ -59,18 +59,23 @@ const std::map<std::string_view, Interpreter::Directive>& Interpreter::directive
         {"ObjectInstance", {Block::world, &I::objectInstance}},
         {"Option", {Block::any, &I::option}},
         {"PixelFilter", {Block::options, &I::pixelFilter}},
+        {"Renderer", {Block::options, &I::renderer}},
         {"ReverseOrientation", {Block::world, &I::reverseOrientation}},
         {"Rotate", {Block::any, &I::rotate}},
         {"Sampler", {Block::options, &I::sampler}},
         {"Scale", {Block::any, &I::scale}},
         {"Shape", {Block::world, &I::shape}},
+        {"SurfaceIntegrator", {Block::options, &I::integrator}},
         {"Texture", {Block::world, &I::texture}},
         {"Transform", {Block::any, &I::transform}},
         {"TransformBegin", {Block::world, &I::transformBegin}},
         {"TransformEnd", {Block::world, &I::attributeEnd}},
         {"TransformTimes", {Block::options, &I::transformTimes}},
         {"Translate", {Block::any, &I::translate}},
+        {"Volume", {Block::world, &I::volume}},
+        {"VolumeIntegrator", {Block::options, &I::renderer}},
         {"WorldBegin", {Block::options, &I::worldBegin}},
+        {"WorldEnd", {Block::world, &I::worldEnd}},
     };
     return table;
 }
@@ -156,7 +161,8 @@ void Interpreter::push(bool isObject, const Position& where) {
 
 void Interpreter::pop(bool isObject, const char* directive, const char* opening, const Position& where) {
     if (saved_.empty()) throw syntaxError(where, "{} without {}", directive, opening);
-    if (saved_.back().isObject != isObject)
+    // Older files may end their attributes within an object that they began outside of it.
+    if (saved_.back().isObject != isObject && !isOlder_)
         throw syntaxError(where, "{} within the {} of line {}", directive,
                           isObject ? "AttributeBegin" : "ObjectBegin", saved_.back().where.line);
     state_ = std::move(saved_.back().state);
@@ -186,7 +192,7 @@ void Interpreter::attribute(Tokenizer& tokens, const Position&) {
         throw badInput(token.position, "unknown attribute target {}{}", token.shown(),
                        didYouMean(name, kTargets));
     ParameterVector& defaults = state_.defaults[std::size_t(target - std::begin(kTargets))];
-    for (auto& parameter : readParameters(tokens)) {
+    for (auto& parameter : parameters(tokens)) {
         // The last one counts; those before it need not be kept.
         std::erase_if(defaults, [&](const auto& p) {
             return p->name == parameter->name && p->type == parameter->type;

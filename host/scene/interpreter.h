@@ -9,6 +9,7 @@
 
 #include <deque>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -83,6 +84,9 @@ private:
     void camera(Tokenizer& tokens, const Position& where);
     void option(Tokenizer& tokens, const Position& where);
     void colorSpace(Tokenizer& tokens, const Position& where);
+    void renderer(Tokenizer& tokens, const Position& where);
+    void worldEnd(Tokenizer& tokens, const Position& where);
+    void volume(Tokenizer& tokens, const Position& where);
     void mediumInterface(Tokenizer& tokens, const Position& where);
     void makeNamedMedium(Tokenizer& tokens, const Position& where);
     void reverseOrientation(Tokenizer& tokens, const Position& where);
@@ -97,11 +101,13 @@ private:
     void objectEnd(Tokenizer& tokens, const Position& where);
     void objectInstance(Tokenizer& tokens, const Position& where);
     void setOption(const char* directive, Tokenizer& tokens, const Position& where);
-    ParameterList list(const std::string& subject, Tokenizer& tokens, const Position& where);
-    ParameterList list(const std::string& subject, Tokenizer& tokens, const Position& where,
-                       AttributeTarget target);
+    ParameterList list(std::string_view directive, std::string& kind, Tokenizer& tokens,
+                       const Position& where, const ParameterVector& inherited = {});
+    ParameterVector parameters(Tokenizer& tokens) const;
+    const ParameterVector& defaults(AttributeTarget target) const;
     void warnIfMoving(const char* what, const Position& where);
-    MovingTransform placement(const Position& where) const;
+    void noteOlder(const Position& where);
+    std::optional<MovingTransform> placement(const Position& where);
 
     Scene& scene_;
     Issues& issues_;
@@ -111,7 +117,7 @@ private:
     OptionBlock options_;
     GraphicsState state_;
     std::vector<Saved> saved_;
-    bool inWorld_ = false;
+    bool inWorld_ = false, isOlder_ = false;
     std::array<double, 2> transformTimes_{0, 1};
     std::map<std::string, MovingTransform> coordinateSystems_;
     std::map<std::string, int> objects_;

@@ -21,8 +21,9 @@ public:
 
     /// Material: index of a new material.
     int add(const std::string& kind, ParameterList parameters);
-    /// MakeNamedMaterial. Throws Error(badInput) if the name is taken.
-    void define(const std::string& name, ParameterList parameters);
+    /// MakeNamedMaterial. Throws Error(badInput) if the name is taken, unless it `mayReplace` what has it
+    /// from here on, as in older files.
+    void define(const std::string& name, const std::string& kind, ParameterList parameters, bool mayReplace);
     /// NamedMaterial: index of the material of that name.
     int use(const std::string& name, const Position& where);
 

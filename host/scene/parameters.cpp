@@ -20,22 +20,18 @@ struct Type {
 constexpr Type kTypes[] = {
     {"bool", Values::flags, 1},        {"float", Values::numbers, 1},     {"integer", Values::integers, 1},
     {"point2", Values::numbers, 2},    {"vector2", Values::numbers, 2},   {"point3", Values::numbers, 3},
-    {"vector3", Values::numbers, 3},   {"normal", Values::numbers, 3},    {"normal3", Values::numbers, 3},
+    {"vector3", Values::numbers, 3},   {"normal", Values::numbers, 3},    {"xyz", Values::numbers, 3},
     {"string", Values::strings, 1},    {"texture", Values::strings, 1},   {"rgb", Values::numbers, 3},
     {"spectrum", Values::spectrum, 2}, {"blackbody", Values::numbers, 1},
 };
 
-/// Types of pbrt-v3 files and what they are called now.
+/// Types of older files, and other spellings, and what they are called now.
 constexpr std::array<std::string_view, 2> kRenamed[] = {
-    {"color", "rgb"}, {"point", "point3"}, {"vector", "vector3"}, {"xyz", "rgb"}};
+    {"color", "rgb"}, {"point", "point3"}, {"vector", "vector3"}, {"normal3", "normal"}};
 
 const Type& typeOf(const std::string& name, const Position& position) {
     for (const Type& type : kTypes)
         if (type.name == name) return type;
-    for (const auto& [old, current] : kRenamed)
-        if (name == old)
-            throw syntaxError(position, "parameter type '{}' is not from pbrt-v4; did you mean '{}'?", name,
-                              current);
     std::vector<std::string_view> names;
     for (const Type& type : kTypes) names.push_back(type.name);
     throw syntaxError(position, "unknown parameter type '{}'{}", printable(name), didYouMean(name, names));
@@ -61,9 +57,10 @@ Parameter declared(const Token& token) {
 }
 
 bool flagOf(const Token& token) {
-    if (token.kind == TokenKind::word && (token.text == "true" || token.text == "false"))
-        return token.text == "true";
-    throw syntaxError(token.position, "expected true or false (without quotes), found {}", token.shown());
+    // In quotes in older files.
+    const bool isText = token.kind == TokenKind::word || token.kind == TokenKind::string;
+    if (isText && (token.text == "true" || token.text == "false")) return token.text == "true";
+    throw syntaxError(token.position, "expected true or false, found {}", token.shown());
 }
 
 void appendValue(Parameter& parameter, Values values, const Token& token) {
@@ -92,8 +89,9 @@ void appendValue(Parameter& parameter, Values values, const Token& token) {
 
 Parameter readParameter(Tokenizer& tokens) {
     Parameter parameter = declared(tokens.next());
+    for (const auto& [other, current] : kRenamed)
+        if (parameter.type == other) parameter.type = current;
     const Type& type = typeOf(parameter.type, parameter.position);
-    if (parameter.type == "normal3") parameter.type = "normal"; // two spellings of one type
     Token token = tokens.next();
     if (token.kind == TokenKind::open) {
         const Position opened = token.position;
@@ -112,6 +110,14 @@ Parameter readParameter(Tokenizer& tokens) {
     return parameter;
 }
 
+void becomeRgb(Parameter& xyz) {
+    xyz.type = "rgb";
+    for (std::size_t i = 0; i < xyz.numbers.size(); i += 3) {
+        const glm::dvec3 rgb = rec709FromXyz({xyz.numbers[i], xyz.numbers[i + 1], xyz.numbers[i + 2]});
+        for (int c = 0; c < 3; ++c) xyz.numbers[i + std::size_t(c)] = std::max(rgb[c], 0.0);
+    }
+}
+
 std::string joined(ParameterList::Types words) {
     std::string list;
     for (const std::string_view word : words) list += (list.empty() ? "" : ", ") + std::string(word);
@@ -120,10 +126,14 @@ std::string joined(ParameterList::Types words) {
 
 } // namespace
 
-ParameterVector readParameters(Tokenizer& tokens) {
+ParameterVector readParameters(Tokenizer& tokens, const ColourSpace* colourSpace) {
     ParameterVector parameters;
-    while (tokens.peek().kind == TokenKind::string)
-        parameters.push_back(std::make_shared<const Parameter>(readParameter(tokens)));
+    while (tokens.peek().kind == TokenKind::string) {
+        Parameter parameter = readParameter(tokens);
+        if (parameter.type == "rgb") parameter.colourSpace = colourSpace;
+        if (parameter.type == "xyz") becomeRgb(parameter);
+        parameters.push_back(std::make_shared<const Parameter>(std::move(parameter)));
+    }
     return parameters;
 }
 
@@ -251,11 +261,19 @@ void ParameterList::ignore(Types names) {
     for (const std::string_view name : names) asked_.emplace_back(name);
 }
 
+void ParameterList::ignoreRest() {
+    for (const Entry& entry : entries_) asked_.push_back(entry.parameter->name);
+}
+
 void ParameterList::finish() {
     for (auto entry = entries_.rbegin(); entry != entries_.rend(); ++entry) {
         const Parameter& parameter = *entry->parameter;
         if (entry->inherited || asked(parameter.name)) continue;
-        const std::vector<std::string_view> names(asked_.begin(), asked_.end());
+        std::vector<std::string_view> names; // what is given, too, was not meant
+        for (const std::string& name : asked_)
+            if (std::none_of(entries_.begin(), entries_.end(),
+                             [&](const Entry& other) { return other.parameter->name == name; }))
+                names.push_back(name);
         report(unsupported(parameter.position, "{} has no parameter '{}', or none that is supported{}",
                            subject_, printable(parameter.name), didYouMean(parameter.name, names)));
     }

@@ -21,9 +21,10 @@ public:
         : scene_(scene), files_(files), issues_(issues) {}
 
     /// `isFloat`: else a spectrum texture; the two have names of their own. `textureFromWorld` is the inverse
-    /// of the transform at the directive. Throws Error(badInput) if the name is taken.
+    /// of the transform at the directive. Throws Error(badInput) if the name is taken, unless it `mayReplace`
+    /// what has it, as in older files.
     void define(bool isFloat, const std::string& name, const std::string& kind, ParameterList parameters,
-                const glm::dmat4& textureFromWorld);
+                const glm::dmat4& textureFromWorld, bool mayReplace);
 
     /// Index of the texture that the parameter `name` means; -1 if it is not there and has no `fallback`.
     int floatTexture(ParameterList& parameters, std::string_view name, std::optional<float> fallback,
@@ -50,9 +51,12 @@ private:
     int named(bool isFloat, const Parameter& parameter);
     int build(Definition& definition);
     Texture make(Definition& definition);
+    void makePattern(Texture& texture, Definition& definition);
     void readMapping(Texture& texture, Definition& definition);
+    void readSpace(Texture& texture, Definition& definition);
     void readImage(Texture& texture, Definition& definition);
     int child(Definition& definition, std::string_view name, float fallback);
+    bool isColour(Definition& definition, std::string_view name) const;
 
     Scene& scene_;
     SceneFiles& files_;
