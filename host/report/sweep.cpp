@@ -61,7 +61,7 @@ public:
         for (const std::string& path : options.scenes) {
             if (!names.insert(nameOf(path)).second)
                 throw Error(ErrorCode::usage, fmt::format("two scenes are called '{}'", nameOf(path)));
-            scenes_.push_back(readScene(path, monitor));
+            scenes_.push_back(readScene(path, monitor, options.reading));
             if (options.halfSize) halve(scenes_.back());
         }
         std::set<std::string> deviceNames;

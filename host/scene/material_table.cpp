@@ -7,6 +7,8 @@
 namespace slant {
 namespace {
 
+const ParameterList::Types kColourTypes{"rgb", "spectrum", "blackbody", "texture"};
+
 constexpr std::string_view kKinds[] = {"diffuse", "coateddiffuse", "conductor"};
 
 // pbrt does not limit these parameters of the random walk in a coating; these bounds limit the cost of a
@@ -28,9 +30,7 @@ void readCoatedDiffuse(Material& material, ParameterList& parameters, TextureTab
         textures.spectrumTexture(parameters, "reflectance", SpectrumUse::albedo, glm::vec3(0.5f));
     readRoughness(material, parameters, textures);
     if (const Parameter* eta = parameters.find("eta", {"float", "spectrum"}))
-        material.interfaceEta = eta->type == "float"    ? *parameters.number("eta", kPositive)
-                                : !eta->strings.empty() ? glassEta(*eta)
-                                                        : spectrumValue(*eta, SpectrumUse::unbounded).x;
+        material.interfaceEta = eta->type == "float" ? *parameters.number("eta", kPositive) : glassEta(*eta);
     material.thickness = textures.floatTexture(parameters, "thickness", 0.01f, kNonNegative);
     material.g = parameters.number("g", 0, {-1, 1});
     material.albedo = textures.spectrumTexture(parameters, "albedo", SpectrumUse::albedo, glm::vec3(0));
@@ -44,9 +44,13 @@ void readConductor(Material& material, ParameterList& parameters, TextureTable& 
         textures.spectrumTexture(parameters, "reflectance", SpectrumUse::albedo, std::nullopt);
     if (material.reflectance >= 0) {
         for (const std::string_view name : {"eta", "k"})
-            if (parameters.find(name, {"rgb", "spectrum", "blackbody", "texture"}))
+            if (parameters.find(name, kColourTypes))
                 throw badInput(parameters.positionOf(name),
                                "a conductor has either 'reflectance' or 'eta' and 'k'");
+    } else if (const std::optional<Metal> metal =
+                   sampledMetal(parameters.find("eta", kColourTypes), parameters.find("k", kColourTypes))) {
+        material.eta = textures.constant(metal->eta);
+        material.k = textures.constant(metal->k);
     } else {
         material.eta = textures.spectrumTexture(parameters, "eta", SpectrumUse::unbounded,
                                                 metalSpectrum("metal-Cu-eta"));
@@ -66,16 +70,16 @@ Material readMaterial(const std::string& kind, ParameterList& parameters, Textur
     else if (kind == "conductor")
         readConductor(material, parameters, textures);
     else
-        throw badInput(parameters.position(), "material \"{}\" is not supported{}", printable(kind),
-                       didYouMean(kind, kKinds));
+        throw unsupported(parameters.position(), "material \"{}\" is not supported{}", printable(kind),
+                          didYouMean(kind, kKinds));
     parameters.finish();
     return material;
 }
 
 } // namespace
 
-MaterialTable::MaterialTable() {
-    add("diffuse", ParameterList({}, "Material \"diffuse\"", {}));
+MaterialTable::MaterialTable(Issues& issues) : issues_(issues) {
+    add("diffuse", ParameterList({}, "Material \"diffuse\"", {}, issues));
 }
 
 int MaterialTable::add(const std::string& kind, ParameterList parameters) {
@@ -94,25 +98,34 @@ int MaterialTable::use(const std::string& name, const Position& where) {
     return indexOf(name, where);
 }
 
-void MaterialTable::define(const std::string& name, ParameterList parameters) {
+void MaterialTable::define(const std::string& name, const std::string& kind, ParameterList parameters,
+                           bool mayReplace) {
     const Position where = parameters.position();
-    Entry& entry = entries_[std::size_t(indexOf(name, where))];
-    if (entry.parameters) throw badInput(where, "the material '{}' is made twice", printable(name));
-    const std::optional<std::string> kind = parameters.text("type");
-    if (!kind) throw badInput(where, "MakeNamedMaterial \"{}\" needs \"string type\"", printable(name));
-    entry = {name, where, *kind, std::move(parameters)};
+    int index = indexOf(name, where);
+    if (entries_[std::size_t(index)].parameters) {
+        if (!mayReplace) throw badInput(where, "the material '{}' is made twice", printable(name));
+        named_[name] = index = int(entries_.size());
+        entries_.emplace_back();
+    }
+    entries_[std::size_t(index)] = {name, where, kind, std::move(parameters)};
+}
+
+Material MaterialTable::built(Entry& entry, TextureTable& textures) const {
+    if (entry.parameters) return readMaterial(entry.kind, *entry.parameters, textures);
+    std::vector<std::string_view> names;
+    for (const auto& [name, index] : named_)
+        if (entries_[std::size_t(index)].parameters) names.push_back(name);
+    throw badInput(entry.where, "there is no material '{}'{}", printable(entry.name),
+                   didYouMean(entry.name, names));
 }
 
 void MaterialTable::build(Scene& scene, TextureTable& textures) {
     for (Entry& entry : entries_) {
-        if (!entry.parameters) {
-            std::vector<std::string_view> names;
-            for (const auto& [name, index] : named_)
-                if (entries_[std::size_t(index)].parameters) names.push_back(name);
-            throw badInput(entry.where, "there is no material '{}'{}", printable(entry.name),
-                           didYouMean(entry.name, names));
-        }
-        scene.materials.push_back(readMaterial(entry.kind, *entry.parameters, textures));
+        Material material;
+        const auto work = [&] { material = built(entry, textures); };
+        if (!issues_.attempt("grey stands in, diffuse with a reflectance of 0.5", work))
+            material = {.reflectance = textures.constant(glm::vec3(0.5f))};
+        scene.materials.push_back(material);
     }
 }
 

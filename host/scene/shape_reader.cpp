@@ -15,7 +15,7 @@ constexpr std::string_view kKinds[] = {"trianglemesh", "bilinearmesh", "plymesh"
 void refuseAlpha(ParameterList& parameters) {
     const Parameter* alpha = parameters.find("alpha", {"float", "texture"});
     if (alpha && (alpha->type == "texture" || alpha->numbers[0] != 1))
-        throw badInput(alpha->position, "'alpha' is not supported");
+        parameters.report(unsupported(alpha->position, "'alpha' is not supported"));
 }
 
 void checkSize(ParameterList& parameters, std::string_view name, std::size_t count, std::size_t vertices) {
@@ -53,6 +53,8 @@ int readMesh(Mesh::Kind kind, ParameterList& parameters, Scene& scene) {
     checkSize(parameters, "N", mesh.normals.size(), mesh.positions.size());
     checkSize(parameters, "uv", mesh.uvs.size(), mesh.positions.size());
     parameters.ignore({"faceIndices"}); // of Ptex textures only
+    if (!parameters.triples("S", "vector3").empty())
+        parameters.note("S", "tangents 'S' are ignored; they only turn highlights that are not round");
     scene.meshes.push_back(std::move(mesh));
     return int(scene.meshes.size()) - 1;
 }
@@ -113,8 +115,8 @@ std::vector<Shape> readShapes(const std::string& kind, ParameterList& parameters
     } else if (kind == "disk") {
         shapes = {readDisk(parameters)};
     } else {
-        throw badInput(parameters.position(), "shape \"{}\" is not supported{}", printable(kind),
-                       didYouMean(kind, kKinds));
+        throw unsupported(parameters.position(), "shape \"{}\" is not supported{}", printable(kind),
+                          didYouMean(kind, kKinds));
     }
     parameters.finish();
     for (Shape& shape : shapes) shape.location = parameters.position();

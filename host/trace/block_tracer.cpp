@@ -10,6 +10,12 @@ float lastOfPixel(int pixel) {
     return std::nextafter(float(pixel + 1), -std::numeric_limits<float>::infinity());
 }
 
+/// What the film's white balance makes of a radiance.
+glm::vec3 balanced(const Film& film, glm::vec3 radiance) {
+    if (film.whiteBalance == glm::mat3(1)) return radiance;
+    return glm::max(film.whiteBalance * radiance, 0.f);
+}
+
 /// What pbrt's sensor and film multiply a radiance by: brightness, and samples no brighter than the film
 /// allows.
 float exposureOf(const Film& film, glm::vec3 radiance) {
@@ -119,15 +125,17 @@ void BlockTracer::store(int i, int sample) {
     std::size_t index = pixel * std::size_t(job_.count) + std::size_t(sample - job_.firstSample);
     job_.out.samples[index] = s;
     const PathState& path = paths_[lane];
-    const float exposure = weights_[lane] * exposureOf(job_.scene.film, weights_[lane] * path.radiance);
-    job_.out.radiance[index] = exposure * path.radiance;
+    const Film& film = job_.scene.film;
+    const glm::vec3 radiance = balanced(film, path.radiance);
+    const float exposure = weights_[lane] * exposureOf(film, weights_[lane] * radiance);
+    job_.out.radiance[index] = exposure * radiance;
     if (!job_.out.albedo.empty()) job_.out.albedo[index] = guides_[lane].albedo;
     if (!job_.out.normal.empty()) job_.out.normal[index] = guides_[lane].normal;
     if (!job_.out.illumination.empty()) {
         const glm::vec3 reflectance = guides_[lane].reflectance;
-        job_.out.illumination[index] = exposure * quotient(path.diffuse, reflectance);
+        job_.out.illumination[index] = exposure * quotient(balanced(film, path.diffuse), reflectance);
         job_.out.reflectance[index] = reflectance;
-        job_.out.reflection[index] = exposure * path.reflection;
+        job_.out.reflection[index] = exposure * balanced(film, path.reflection);
         if (!job_.out.position.empty()) storeShadow(i, index, exposure);
     }
     if (!job_.out.motion.empty()) {
@@ -148,7 +156,8 @@ void BlockTracer::storeShadow(int i, std::size_t index, float exposure) {
         const float distance = std::isinf(shadow.ray.tMax) ? job_.farAway : shadow.ray.tMax;
         light += distance * shadow.ray.direction;
         blocker = std::isinf(blockers_[lane]) ? light : position + blockers_[lane] * shadow.ray.direction;
-        direct = exposure * quotient(shadow.diffuseShare * shadow.contribution, guides_[lane].reflectance);
+        direct = exposure * quotient(balanced(job_.scene.film, shadow.diffuseShare * shadow.contribution),
+                                     guides_[lane].reflectance);
     }
     job_.out.position[index] = position;
     job_.out.light[index] = light;

@@ -84,7 +84,7 @@ Microfacets Materials::facets(const Entry& entry, const TexturePoint& point) con
 
 Bsdf Materials::bsdf(const SurfaceHit& hit, glm::vec3 wo) const {
     const Entry& e = entries_[std::size_t(hit.materialIndex)];
-    const TexturePoint point{hit.position, hit.uv};
+    const TexturePoint point{hit.position, hit.uv, hit.geometricNormal};
     if (e.kind == MaterialKind::conductor) {
         if (!e.reflectanceConductor)
             return Bsdf::conductor(hit.shadingNormal, hit.dpdu, wo, facets(e, point), value(e.eta, point),
