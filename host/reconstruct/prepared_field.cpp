@@ -182,7 +182,8 @@ Image PreparedField::picture(const LensView& view, ValuePlane plane, Monitor& mo
         picture.fromWindows();
         break;
     case DenseSource::bins:
-        picture.fromBins(traits.usesLayerMap);
+        // Rims cut the disc of a stop sharply: what corners of tiles know of that is too coarse.
+        picture.fromBins(traits.usesLayerMap && !samples_.field().lensMap.ofStop());
         break;
     }
     engine_->addPassTimes(report);
