@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/map_texel.glsl"
 #include "resources/bins.glsl"
+#include "resources/compound_lens.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 9, rgba32ui) uniform writeonly uimageBuffer texels;
@@ -10,6 +11,12 @@ layout(set = 0, binding = 10, r32ui) uniform uimageBuffer counters;
 layout(set = 0, binding = 11, r32ui) uniform writeonly uimageBuffer overflowList;
 
 layout(set = 0, binding = 12, rgba32ui) uniform writeonly uimageBuffer mapMotions; // of both layers
+layout(set = 0, binding = 13) uniform textureBuffer lensMap;                       // of distortion alone
+
+vec4 lensMapAt(int texel) {
+    return texelFetch(lensMap, texel);
+}
+#include "lib/lens_map.glsl"
 
 struct LayerTexel {
     uvec4 words, motions;
@@ -39,16 +46,18 @@ void main() {
     if (place.x >= size.x || place.y >= size.y) return;
     const ivec2 tile = place / (kTileSize * side);
     const int list = tile.y * push.outputs.tileCount.x + tile.x;
-    const vec2 p = vec2(push.outputs.regionOrigin) + (vec2(place) + 0.5) * (1.0 / float(side));
+    Output o = outputOnFilm(vec2(push.outputs.regionOrigin) + (vec2(place) + 0.5) * (1.0 / float(side)),
+                            vec2(0.0), 0.5, 0.0);
+    if (kCompoundLens) toSceneSide(o, sceneRay(o.xy, o.uv));
     const uint begin = texelFetch(listStart, list).x, end = texelFetch(listStart, list + 1).x;
     Sweep sweep;
     sweep.texel.count = 2;
     bool complete = true;
+    if (!(o.weight > 0.0)) sweep.texel = noLayers(); // beyond the lens map
     for (int reach = 1; reach <= 2 && sweep.texel.count > 1; ++reach) {
         sweep = newSweep(push.grid, push.baseRadiusPx, float(side), slopeCode(push.grid));
-        const int steps =
-            forEachCandidate(push.grid, outputOnFilm(p, vec2(0.0), 0.5, 0.0),
-                             float(reach) * push.baseRadiusPx, sweep.maxRadiusRatio, begin, end, sweep);
+        const int steps = forEachCandidate(push.grid, o, float(reach) * push.baseRadiusPx,
+                                           sweep.maxRadiusRatio, begin, end, sweep);
         complete = complete && steps <= kMaxSteps;
         if (sweep.surface.count > 0) close(sweep, true);
     }

@@ -3,13 +3,14 @@
 #extension GL_GOOGLE_include_directive : require
 #include "resources/brick.glsl"
 #include "resources/cluster.glsl"
+#include "resources/compound_lens.glsl"
 #include "resources/invocation.glsl"
 #include "resources/moving.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform utextureBuffer listStart;
 layout(set = 0, binding = 1) uniform utextureBuffer listBricks;
-layout(set = 0, binding = 2) uniform textureBuffer lensBoxes;
+layout(set = 0, binding = 2) uniform textureBuffer lensSights; // of groups; of lists through a compound lens
 layout(set = 0, binding = 3, r32ui) uniform writeonly uimageBuffer classes;
 layout(set = 0, binding = 4, rgba32f) uniform imageBuffer clusters;        // from the list's start on
 layout(set = 0, binding = 5, r32ui) uniform writeonly uimageBuffer missed; // two per list
@@ -48,15 +49,16 @@ void main() {
     if (list >= push.count) return;
     const uint tiles = uint(push.outputs.tileCount.x) * uint(push.outputs.tileCount.y);
     const int group = int(push.firstGroup + list / tiles);
-    const vec4 box = texelFetch(lensBoxes, group);
+    const vec4 lens = texelFetch(lensSights, kCompoundLens ? int(list) : group);
+    const LensSight sight = LensSight(lens.x, lens.y, lens.z, lens.w);
     listBegin = texelFetch(listStart, int(list)).x;
     const uint end = texelFetch(listStart, int(list) + 1).x;
     uint listClass;
     if (kMoving) {
         motionLayout = READ_MOTION_LAYOUT;
-        listClass = movingClassOf(listBegin, end, box, texelFetch(groupTimes, group).xy, push.lensScale);
+        listClass = movingClassOf(listBegin, end, sight, texelFetch(groupTimes, group).xy);
     } else {
-        listClass = classOf(listBegin, end, box, push.lensScale);
+        listClass = classOf(listBegin, end, sight);
     }
     imageStore(classes, int(list), uvec4(listClass));
     const uvec4 left = uvec4((listClass & (kInFocusBit - 1u)) != 0u ? 0u : ~0u);

@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/output.glsl"
 #include "resources/cluster.glsl"
+#include "resources/compound_lens.glsl"
 #include "resources/moving.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -17,6 +18,11 @@ layout(set = 0, binding = 6, rgba32f) uniform writeonly imageBuffer dense;
 layout(set = 0, binding = 7, r32ui) uniform uimageBuffer missed; // two per list: a bit for each pixel
 layout(set = 0, binding = 8) uniform utextureBuffer mapMotions;  // of both layers
 layout(set = 0, binding = 9) uniform textureBuffer motionTexels;
+layout(set = 0, binding = 10) uniform textureBuffer lensMap;
+layout(set = 0, binding = 11) uniform textureBuffer distortion;
+layout(set = 0, binding = 12) uniform textureBuffer cornerRays;
+layout(set = 0, binding = 13) uniform textureBuffer cornerLights;
+layout(constant_id = 2) const bool kStop = false; // whether the lens map is of the disc of a stop
 layout(push_constant) uniform Push {
     MapLookupPush push;
 };
@@ -33,7 +39,23 @@ Cluster clusterAt(int i) {
     return clusterOf(texelFetch(clusters, kClusterTexels * i), texelFetch(clusters, kClusterTexels * i + 1));
 }
 MotionLayout motionLayout;
+vec4 distortionHead;
+vec4 distortionAt(int texel) {
+    return texelFetch(distortion, texel);
+}
+vec4 lensMapAt(int texel) {
+    return texelFetch(lensMap, texel);
+}
+vec4 cornerRayAt(int i) {
+    return texelFetch(cornerRays, i);
+}
+vec4 cornerLightAt(int i) {
+    return texelFetch(cornerLights, i);
+}
+#include "lib/lens_corners.glsl"
+#include "lib/lens_map.glsl"
 #include "lib/map_lookup.glsl"
+#include "lib/pixel_sight.glsl"
 
 /// Leaves this pixel to the bins, or all of the list.
 void miss(int list, uint clusterCount) {
@@ -45,6 +67,7 @@ void miss(int list, uint clusterCount) {
 
 void main() {
     if (kMoving) motionLayout = READ_MOTION_LAYOUT;
+    if (kCompoundLens) distortionHead = distortionAt(0);
     const uvec3 tile = gl_WorkGroupID;
     const ivec2 position = ivec2(gl_GlobalInvocationID.xy), size = push.outputs.regionSize;
     const int list =
@@ -59,6 +82,9 @@ void main() {
     const ivec2 pixel = push.outputs.regionOrigin + position;
     // Positions outside the region are tested too: whether a list is served must not depend on bands.
     const bool inRegion = position.x < size.x && position.y < size.y;
+    const vec2 middle = vec2(pixel) + 0.5;
+    PixelSight sight;
+    if (kCompoundLens) sight = pixelSight(position, middle, push.outputs.tileCount);
     vec3 sum = vec3(0.0);
     for (int rank = 0; rank < groupSize; ++rank) {
         if (rank >= taken && !inFocus) break;
@@ -66,24 +92,29 @@ void main() {
         vec4 value = vec4(vec3(0.0), kLeftOut);
         if (rank < taken) {
             const vec4 point = texelFetch(lensPoints, firstOutput + i);
-            Output o = outputOnFilm(vec2(pixel) + 0.5, vec2(0.0), 0.0, kWholePixel);
+            Output o = outputOnFilm(middle, vec2(0.0), 0.0, kWholePixel);
             float time = point.z;
             if (inFocus) {
                 const uvec4 entry = texelFetch(pattern, firstOutput + i);
                 o = placed(pixel, entry, seedOf(pixel, push.outputs.seed));
-                sum = vec3(0.0);
                 if (kMoving)
                     time = timeInShutter(pixel, firstOutput + i, entry.z, push.outputs.outputsPerPixel,
                                          push.outputs.seed,
                                          vec2(motionLayout.shutterOpen, motionLayout.shutterSpan)) -
                            0.5;
             }
-            const Sight ray = Sight(o.xy, point.xy, time);
-            if (!look(ray, clusterBegin, int(clusterCount), sum)) {
-                miss(list, clusterCount);
-                return;
+            o.uv = point.xy;
+            if (kCompoundLens) lookFromCorners(sight, firstPlane + i, o.xy - middle, o);
+            vec3 rgb = vec3(0.0);
+            if (!(kCompoundLens && o.weight == 0.0)) { // else the film is dark
+                if (!look(Sight(o.xy, o.uv, time), clusterBegin, int(clusterCount), rgb)) {
+                    miss(list, clusterCount);
+                    return;
+                }
+                if (kCompoundLens) rgb *= o.weight;
             }
-            value = vec4(sum, o.positionCode);
+            sum += rgb;
+            value = vec4(rgb, o.positionCode);
         }
         if (inFocus && inRegion)
             imageStore(dense, ((firstPlane + i) * size.y + position.y) * size.x + position.x, value);

@@ -1,7 +1,6 @@
 #include "compute/list_passes.h"
 
 #include "compute/field_buffers.h"
-#include "reconstruct/lens_tiles.h"
 
 #include <bit>
 
@@ -50,8 +49,8 @@ ListPasses::ListPasses(Device& device, const OutputPattern& pattern, const LensM
 ListPasses::ListPasses(Device& device, const OutputPattern& pattern, const LensMap& lens,
                        const MotionGrid& motion, const BrickOrders& orders)
     : device_(device), pattern_(pattern), lens_(lens),
-      count_(device, "list_count", fieldConstants(!lens.empty(), motion.moves())), emit_(device, "list_emit"),
-      start_(device, "list_start"),
+      count_(device, "list_count", fieldConstants(!lens.empty(), motion.moves())),
+      emit_(device, "list_emit", fieldConstants(!lens.empty(), motion.moves())), start_(device, "list_start"),
       gather_(device, "list_gather", fieldConstants(!lens.empty(), motion.moves())), scan_(device, 1),
       sort_(device, 1), lensBoxes_(uploadBoxes(device, pattern.groups)),
       brickOrder_(uploadOrders(device, orders)), groupTimes_(uploadTimes(device, pattern, orders)),
@@ -60,10 +59,10 @@ ListPasses::ListPasses(Device& device, const OutputPattern& pattern, const LensM
 DeviceLists ListPasses::run(CommandList& commands, const DeviceBins& bins, OutputPush push, float marginPx) {
     push.marginPx = marginPx;
     if (!lens_.empty())
-        lensBounds_ = lensTileBounds(lens_, pattern_, push.firstGroup, push.groupCount, push.grid,
-                                     push.outputs, marginPx);
-    Buffer lensTiles(device_, TexelFormat::r32f, lensBounds_.size());
-    lensTiles.upload(lensBounds_);
+        lensTiles_ =
+            lensTilesOf(lens_, pattern_, push.firstGroup, push.groupCount, push.grid, push.outputs, marginPx);
+    Buffer lensTiles(device_, TexelFormat::r32f, lensTiles_.bounds.size());
+    lensTiles.upload(lensTiles_.bounds);
     push.count = push.groupCount * bins.brickTotal;
     Buffer offsets(device_, TexelFormat::r32ui, push.count + 1),
         ranges(device_, TexelFormat::rgba32ui, push.count);
@@ -80,10 +79,15 @@ DeviceLists ListPasses::run(CommandList& commands, const DeviceBins& bins, Outpu
     const uint lists = push.groupCount * uint(push.outputs.tileCount.x) * uint(push.outputs.tileCount.y);
     PairBuffers pairs(device_, entries), scratch(device_, entries);
     push.count = entries;
-    commands.dispatch(emit_, {ranges, offsets, pairs.keys, pairs.values}, push, emit_.gridFor(entries));
+    Buffer boxes(device_, TexelFormat::rgba32f, lensTiles_.boxes.size());
+    boxes.upload(lensTiles_.boxes);
+    commands.dispatch(emit_,
+                      {ranges, offsets, pairs.keys, pairs.values, bins.bricks, bins.brickMotions, groupTimes_,
+                       motionTexels_, boxes},
+                      push, emit_.gridFor(entries));
     sort_.reserve(entries);
-    const bool inScratch =
-        &sort_.record(commands, pairs, scratch, entries, std::bit_width(lists - 1)) == &scratch;
+    const bool inScratch = &sort_.record(commands, pairs, scratch, entries,
+                                         std::bit_width(lens_.empty() ? lists - 1 : lists)) == &scratch;
     PairBuffers& sorted = inScratch ? scratch : pairs;
     Buffer start(device_, TexelFormat::r32ui, lists + 1);
     commands.dispatch(start_, {sorted.keys, start}, LowerBoundPush{entries, lists + 1},

@@ -1,14 +1,14 @@
 // Stage "lists" on the device: the same words as makeTileLists (reconstruct/tile_lists.h).
 #pragma once
 #include "compute/bin_passes.h"
+#include "reconstruct/lens_tiles.h"
 #include "reconstruct/output_pattern.h"
-#include "reconstruct/tile_lists.h"
 
 namespace slant {
 
 struct DeviceLists {
     Buffer start;  ///< groups * tiles + 1
-    Buffer ids;    ///< of bricks, one per entry
+    Buffer ids;    ///< of bricks, one per entry; there may be more than in all lists
     Buffer bricks; ///< the bricks themselves
     Buffer cellBases;
     Buffer motions; ///< of the bricks, where things move
@@ -23,10 +23,8 @@ public:
     /// Runs on `commands`, which must be empty, and leaves it empty.
     DeviceLists run(CommandList& commands, const DeviceBins& bins, OutputPush push, float marginPx);
 
-    /// The tiles' bounds that the last lists are from, through a lens map.
-    const std::vector<float>& lensBounds() const { return lensBounds_; }
-    /// Of all groups: min, max.
-    const Buffer& lensBoxes() const { return lensBoxes_; }
+    /// What the last lists are from, through a lens map.
+    const LensTiles& lensTiles() const { return lensTiles_; }
     /// Of all groups: first, last, slot.
     const Buffer& groupTimes() const { return groupTimes_; }
     /// The picture's MotionLayout.
@@ -43,7 +41,7 @@ private:
     Scan scan_;
     RadixSort sort_;
     Buffer lensBoxes_, brickOrder_, groupTimes_, motionTexels_;
-    std::vector<float> lensBounds_;
+    LensTiles lensTiles_;
 };
 
 } // namespace slant

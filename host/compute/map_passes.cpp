@@ -1,19 +1,39 @@
 #include "compute/map_passes.h"
 
 #include "compute/field_buffers.h"
+#include "reconstruct/lens_corners.h"
 
 namespace slant {
 
-MapPasses::MapPasses(Device& device, const OutputPattern& pattern, const DeviceBins& bins)
-    : device_(device), map_(device, "layer_map", fieldConstants(false, bins.motion.moves())),
-      reduce_(device, "map_reduce", fieldConstants(false, bins.motion.moves())),
-      classify_(device, "list_classify", fieldConstants(false, bins.motion.moves())),
-      lookup_(device, "map_lookup", fieldConstants(false, bins.motion.moves())),
+namespace {
+
+/// fieldConstants, and kStop of map_lookup.comp.
+std::array<std::uint32_t, 3> lookupConstants(const LensMap& lens, bool moves) {
+    return {lens.empty() ? 0u : 1u, moves ? 1u : 0u, lens.ofStop() ? 1u : 0u};
+}
+
+} // namespace
+
+MapPasses::MapPasses(Device& device, const OutputPattern& pattern, const LensMap& lens,
+                     const LensDistortion& distortion, const DeviceBins& bins)
+    : device_(device), lens_(lens), distortion_(distortion), points_(lensPoints(pattern)),
+      map_(device, "layer_map", fieldConstants(!lens.empty(), bins.motion.moves())),
+      reduce_(device, "map_reduce", fieldConstants(!lens.empty(), bins.motion.moves())),
+      classify_(device, "list_classify", fieldConstants(!lens.empty(), bins.motion.moves())),
+      lookup_(device, "map_lookup", lookupConstants(lens, bins.motion.moves())),
       texels_(device, TexelFormat::rgba32ui, 0), motions_(device, TexelFormat::rgba32ui, 0),
       motionTexels_(motionBuffer(device, bins.motion.layout)),
       lensPoints_(device, TexelFormat::rgba32f, pattern.entries.size()),
-      clusters_(device, TexelFormat::rgba32f, 0), moves_(bins.motion.moves()) {
-    lensPoints_.upload(lensPoints(pattern));
+      clusters_(device, TexelFormat::rgba32f, 0), lensMap_(lensBuffer(device, lens)),
+      pinholeMap_(lensBuffer(device, distortion.pinhole())),
+      distortionTexels_(device, TexelFormat::rgba32f, distortion.texels().size()),
+      cornerRays_(device, TexelFormat::rgba32f, 0), cornerLights_(device, TexelFormat::rgba32f, 0),
+      sights_(device, TexelFormat::rgba32f, pattern.groups.size()), moves_(bins.motion.moves()) {
+    lensPoints_.upload(points_);
+    distortionTexels_.upload(distortion.texels());
+    std::vector<LensSight> sights;
+    for (const LensBox& group : pattern.groups) sights.push_back(sightThrough(group, pattern.lensScale));
+    sights_.upload(sights);
 }
 
 void MapPasses::makeMap(CommandList& commands, const DeviceBins& bins, const MapLayout& layout,
@@ -29,17 +49,15 @@ void MapPasses::makeMap(CommandList& commands, const DeviceBins& bins, const Map
     push.groupCount = 1;
     push.brickTotal = bins.brickTotal;
     push.baseRadiusPx = layout_.tentPx;
-    OutputPattern center;
-    center.groups = {{vec2(0), vec2(0)}};
-    const LensMap noLens;
-    ListPasses listPasses(device_, center, noLens, bins);
+    const OutputPattern pattern = mapPattern();
+    ListPasses listPasses(device_, pattern, distortion_.pinhole(), bins);
     const DeviceLists lists = listPasses.run(commands, bins, push, 2 * layout_.tentPx);
     Buffer counters(device_, TexelFormat::r32ui, kCounters), overflowList(device_, TexelFormat::r32ui, base);
     commands.fill(counters, 0);
     commands.dispatch(map_,
                       {bins.positions, bins.values, bins.cellStart, lists.start, lists.cellBases,
                        lists.bricks, bins.motions, lists.motions, listPasses.motionTexels(), texels_,
-                       counters, overflowList, motions_},
+                       counters, overflowList, motions_, pinholeMap_},
                       push, map_.gridOver(std::uint32_t(layout_.size.x), std::uint32_t(layout_.size.y)));
     commands.run();
     uint overflowed = 0;
@@ -72,17 +90,31 @@ void MapPasses::record(CommandList& commands, const ListPasses& listPasses, cons
     push.firstGroup = outputs.firstGroup;
     push.count = uint(lists.start.texels() - 1);
     push.groupBits = outputs.groupBits;
-    push.lensScale = outputs.lensScale;
     push.sparseBits = outputs.takenBits;
     const std::uint64_t clusterTexels = lists.bricks.texels() * (moves_ ? kClusterTexels : 1);
     if (clusters_.texels() < clusterTexels) clusters_ = Buffer(device_, TexelFormat::rgba32f, clusterTexels);
+    if (!lens_.empty()) {
+        const auto upload = [&](const auto& values) {
+            Buffer buffer(device_, TexelFormat::rgba32f, values.size());
+            buffer.upload(values);
+            return buffer;
+        };
+        const LensCorners corners =
+            lensCorners(lens_, outputs.outputs,
+                        std::span(points_).subspan(std::size_t(outputs.firstOutput),
+                                                   std::size_t(outputs.groupCount) << outputs.groupBits));
+        sights_ = upload(listPasses.lensTiles().sights);
+        cornerRays_ = upload(corners.rays);
+        cornerLights_ = upload(corners.lights);
+    }
     commands.dispatch(classify_,
-                      {lists.start, lists.bricks, listPasses.lensBoxes(), classes, clusters_, missed,
-                       lists.motions, listPasses.groupTimes(), motionTexels_},
+                      {lists.start, lists.bricks, sights_, classes, clusters_, missed, lists.motions,
+                       listPasses.groupTimes(), motionTexels_},
                       push, classify_.gridFor(push.count));
     commands.dispatch(lookup_,
                       {lists.start, clusters_, texels_, lensPoints_, pattern, classes, dense, missed,
-                       motions_, listPasses.motionTexels()},
+                       motions_, listPasses.motionTexels(), lensMap_, distortionTexels_, cornerRays_,
+                       cornerLights_},
                       push,
                       {std::uint32_t(outputs.outputs.tileCount.x), std::uint32_t(outputs.outputs.tileCount.y),
                        outputs.groupCount});

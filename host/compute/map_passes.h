@@ -11,7 +11,9 @@ namespace slant {
 
 class MapPasses {
 public:
-    MapPasses(Device& device, const OutputPattern& pattern, const DeviceBins& bins);
+    /// What it refers to must outlive it.
+    MapPasses(Device& device, const OutputPattern& pattern, const LensMap& lens,
+              const LensDistortion& distortion, const DeviceBins& bins);
 
     /// Makes a map. `resolve` computes, on the CPU, a texel of level 0 that has more samples than a shader
     /// may loop over. Runs on `commands`, which must be empty, and leaves it empty.
@@ -30,9 +32,15 @@ public:
 
 private:
     Device& device_;
+    const LensMap& lens_;
+    const LensDistortion& distortion_;
+    std::vector<vec4> points_; ///< lensPoints
     MapLayout layout_{};
     Pass map_, reduce_, classify_, lookup_;
     Buffer texels_, motions_, motionTexels_, lensPoints_, clusters_;
+    Buffer lensMap_, pinholeMap_, distortionTexels_;
+    Buffer cornerRays_, cornerLights_; ///< of a chunk, through a compound lens
+    Buffer sights_;                    ///< of all groups; through a compound lens, of the lists of a chunk
     bool moves_;
 };
 

@@ -35,9 +35,10 @@ void VulkanEngine::begin(PictureSetup setup) {
     film_.emplace(device_, setup_.frame, setup_.filter);
     picture_.reset();
     if (bins_)
-        picture_.emplace(BinPicture{ListPasses(device_, setup_.pattern, lensMap(), bins_->bins()),
-                                    OutputPasses(device_, setup_.pattern, lensMap(), setup_.search),
-                                    MapPasses(device_, setup_.pattern, bins_->bins())});
+        picture_.emplace(
+            BinPicture{ListPasses(device_, setup_.pattern, lensMap(), bins_->bins()),
+                       OutputPasses(device_, setup_.pattern, lensMap(), setup_.search),
+                       MapPasses(device_, setup_.pattern, lensMap(), setup_.distortion, bins_->bins())});
 }
 
 void VulkanEngine::beginWindow(const WindowSearch& search) {
@@ -174,11 +175,11 @@ std::vector<uint> VulkanEngine::words(Intermediate intermediate) const {
     case Intermediate::layerMapMotions:
         return all(picture_->map.motions());
     case Intermediate::lensBounds:
-        return bits(picture_->lists.lensBounds());
+        return bits(picture_->lists.lensTiles().bounds);
     case Intermediate::listStart:
         return all(lists_->start);
     case Intermediate::listBricks:
-        return all(lists_->ids);
+        return wordsOf(lists_->ids, all(lists_->start).back());
     case Intermediate::listClasses:
         return all(classes_);
     case Intermediate::missedPixels:

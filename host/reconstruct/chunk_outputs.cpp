@@ -19,21 +19,25 @@ ChunkOutputs::ChunkOutputs(const Bins& bins, const BrickOrders& orders, const Le
 }
 
 void ChunkOutputs::makeLists() {
-    lists = listsWithin(2 * bins_.grid.radiusPx, lensBounds);
+    lists = listsWithin(2 * bins_.grid.radiusPx, lensTiles);
 }
 
-TileLists ChunkOutputs::listsWithin(float marginPx, std::vector<float>& bounds) const {
+TileLists ChunkOutputs::listsWithin(float marginPx, LensTiles& found) const {
     const OutputLayout& layout = chunk_.layout;
     const auto first = std::size_t(chunk_.firstGroup);
     const bool moves = bins_.motion.moves();
     if (lens_.empty() && !moves) return makeTileLists(bins_, layout, groups_, marginPx);
     if (!lens_.empty())
-        bounds = lensTileBounds(lens_, pattern_, first, groups_.size(), bins_.grid, layout, marginPx);
+        found = lensTilesOf(lens_, pattern_, first, groups_.size(), bins_.grid, layout, marginPx);
     GroupSight sight;
     sight.tilesOf = [&](uint brick, std::size_t group) {
         if (lens_.empty()) return tilesSeeing(bins_, brick, layout, groups_[group], timesOf(group), marginPx);
-        return tilesOfCompoundLens(bins_, brick, layout, bounds, group, timesOf(group));
+        return tilesOfCompoundLens(bins_, brick, layout, found.bounds, group, timesOf(group));
     };
+    if (!lens_.empty())
+        sight.sees = [&](uint brick, std::size_t group, std::size_t list) {
+            return listSees(bins_, brick, found, list, timesOf(group));
+        };
     if (moves)
         sight.brickAt = [&](std::size_t group, std::size_t rank) {
             return orders_.at(pattern_.slotOf(first + group), rank);
@@ -44,6 +48,10 @@ TileLists ChunkOutputs::listsWithin(float marginPx, std::vector<float>& bounds) 
 /// Of a group of the chunk.
 vec2 ChunkOutputs::timesOf(std::size_t group) const {
     return pattern_.times.empty() ? vec2(0) : pattern_.times[std::size_t(chunk_.firstGroup) + group];
+}
+
+LensSight ChunkOutputs::sightOf(std::size_t group, std::size_t list) const {
+    return lens_.empty() ? sightThrough(groups_[group], pattern_.lensScale) : lensTiles.sights[list];
 }
 
 SearchContext ChunkOutputs::contextOf(const TileLists& in, std::size_t list) const {
@@ -88,6 +96,10 @@ void ChunkOutputs::store(const Slot& slot, const Output& output, const Reconstru
 
 ListClasses ChunkOutputs::lookUpMap(const LayerMap& map, Monitor& monitor) {
     const std::size_t tiles = std::size_t(tileCount());
+    if (!lens_.empty())
+        corners_ = lensCorners(
+            lens_, chunk_.layout,
+            std::span(lensPoints_).subspan(std::size_t(chunk_.firstOutput), std::size_t(chunk_.planes)));
     ListClasses classes(tiles * groups_.size());
     parallelFor(0, tiles, 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t tile = first; tile < last; ++tile) {
@@ -96,8 +108,8 @@ ListClasses ChunkOutputs::lookUpMap(const LayerMap& map, Monitor& monitor) {
             std::uint64_t served = 0;
             for (std::size_t group = 0; group < groups_.size(); ++group) {
                 const std::size_t list = group * tiles + tile;
-                const ListClass listClass = classOfList(bins_, contextOf(lists, list).bricks, groups_[group],
-                                                        timesOf(group), pattern_.lensScale, map.layout);
+                const ListClass listClass = classOfList(bins_, contextOf(lists, list).bricks,
+                                                        sightOf(group, list), timesOf(group), map.layout);
                 const std::uint64_t missed =
                     listClass.clusters.empty() ? ~0ull : takeList(map, group, corner, listClass);
                 classes.set(list, listClass.code(), missed);
@@ -125,6 +137,8 @@ bool ChunkOutputs::takePixel(const LayerMap& map, std::size_t group, ivec2 posit
     const ivec2 size = chunk_.layout.regionSize;
     const bool inRegion = position.x < size.x && position.y < size.y;
     const int taken = takenOf(listClass.sparse);
+    const vec2 middle = vec2(chunk_.layout.regionOrigin + position) + 0.5f;
+    const PixelSight sight = lens_.empty() ? PixelSight{} : pixelSight(lens_, chunk_.layout, position);
     vec3 sum(0);
     for (int rank = 0; rank < (listClass.inFocus ? pattern_.groupSize() : taken); ++rank) {
         const int k = memberAt(group, rank, listClass.sparse);
@@ -133,16 +147,22 @@ bool ChunkOutputs::takePixel(const LayerMap& map, std::size_t group, ivec2 posit
             if (inRegion) dense.samples[slot.sample] = vec4(0, 0, 0, kLeftOut);
             continue;
         }
-        const Output own = at(slot);
-        const vec2 place = listClass.inFocus ? own.xy : vec2(slot.pixel) + 0.5f;
+        Output own = outputAt(slot.pixel, chunk_.firstOutput + k, pattern_, chunk_.layout.seed);
         const vec4 point = lensPoints_[std::size_t(chunk_.firstOutput + k)];
+        if (!listClass.inFocus) own.xy = middle;
+        own.uv = vec2(point);
         // In focus, motion alone blurs, along a line: outputs at the same times in every pixel would cut
         // it into pieces.
         const float time = listClass.inFocus && pattern_.shutter.moves ? own.t - 0.5f : point.z;
-        const std::optional<vec3> rgb = lookThrough(map, listClass.clusters, place, vec2(point), time);
-        if (!rgb) return false;
-        sum += *rgb;
-        if (listClass.inFocus && inRegion) dense.samples[slot.sample] = vec4(*rgb, own.positionCode);
+        if (!lens_.empty()) lookFromCorners(corners_, sight, k, own.xy - middle, own);
+        vec3 rgb(0);
+        if (own.weight != 0) { // else the film is dark
+            const std::optional<vec3> seen = lookThrough(map, listClass.clusters, own.xy, own.uv, time);
+            if (!seen) return false;
+            rgb = own.weight * *seen;
+        }
+        sum += rgb;
+        if (listClass.inFocus && inRegion) dense.samples[slot.sample] = vec4(rgb, own.positionCode);
     }
     if (!listClass.inFocus && inRegion)
         dense.samples[slotAt(position, int(group) * pattern_.groupSize()).sample] =
@@ -218,8 +238,8 @@ SearchCounts ChunkOutputs::widen(Counts& counts) {
     float radius = bins_.grid.radiusPx;
     for (int step = 0; step < kWidenings && !counts.holes.empty(); ++step) {
         radius *= 2;
-        std::vector<float> bounds;
-        const TileLists wide = listsWithin(2 * radius, bounds);
+        LensTiles wideTiles;
+        const TileLists wide = listsWithin(2 * radius, wideTiles);
         std::erase_if(counts.holes, [&](const Slot& slot) {
             const Output output = at(slot);
             const Reconstructed resolved = resolveVisibility(contextOf(wide, slot.list), output, radius);

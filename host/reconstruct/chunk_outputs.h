@@ -3,6 +3,7 @@
 #pragma once
 #include "base/monitor.h"
 #include "reconstruct/film_buffer.h"
+#include "reconstruct/lens_corners.h"
 #include "reconstruct/lens_tiles.h"
 #include "reconstruct/list_work.h"
 #include "reconstruct/map_lookup.h"
@@ -30,7 +31,7 @@ public:
 
     DenseSamples dense;
     TileLists lists;
-    std::vector<float> lensBounds; ///< that the lists were made from, through a lens map
+    LensTiles lensTiles; ///< that the lists were made from, through a lens map
 
 private:
     /// Where an output is stored, and in which list its bricks stand.
@@ -46,7 +47,8 @@ private:
 
     int tileCount() const { return chunk_.layout.tileCount.x * chunk_.layout.tileCount.y; }
     std::uint64_t pixelsInside(ivec2 corner) const;
-    TileLists listsWithin(float marginPx, std::vector<float>& bounds) const;
+    TileLists listsWithin(float marginPx, LensTiles& lensTiles) const;
+    LensSight sightOf(std::size_t group, std::size_t list) const;
     vec2 timesOf(std::size_t group) const;
     SearchContext contextOf(const TileLists& in, std::size_t list) const;
     Slot slotAt(ivec2 position, int output) const;
@@ -68,6 +70,7 @@ private:
     Chunk chunk_;
     std::span<const LensBox> groups_;
     std::vector<vec4> lensPoints_; ///< of all outputs of the pattern
+    LensCorners corners_;
 };
 
 } // namespace slant

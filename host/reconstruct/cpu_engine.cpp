@@ -22,7 +22,7 @@ void CpuEngine::beginWindow(const WindowSearch& search) {
 }
 
 void CpuEngine::makeMap(const MapLayout& layout) {
-    map_ = makeLayerMap(bins_->bins(), layout);
+    map_ = makeLayerMap(bins_->bins(), layout, setup_.distortion);
     noteBytes(map_.texels.size() * sizeof(glm::uvec4));
 }
 
@@ -83,7 +83,7 @@ std::vector<uint> CpuEngine::words(Intermediate intermediate) const {
     case Intermediate::layerMapMotions:
         return wordsOf(map_.motions);
     case Intermediate::lensBounds:
-        return wordsOf(outputs_->lensBounds);
+        return wordsOf(outputs_->lensTiles.bounds);
     case Intermediate::listStart:
         return wordsOf(outputs_->lists.start);
     case Intermediate::listBricks:
@@ -110,7 +110,7 @@ MapTexel CpuEngine::mapTexel(const MapLayout& layout, ivec2 texel) const {
     const Bins& bins = bins_->bins();
     std::vector<uint> bricks(bins.bricks.size());
     for (uint i = 0; i < bricks.size(); ++i) bricks[i] = i;
-    return resolveTexel({bins, bricks}, layout, texel);
+    return resolveTexel({bins, bricks}, layout, setup_.distortion.pinhole(), texel);
 }
 
 const std::vector<vec4>& CpuEngine::redo(const Chunk& chunk, std::span<const uint> indices,

@@ -2,6 +2,7 @@
 // engine runs them, on the CPU (cpu_engine.h) or in compute shaders (compute/vulkan_engine.h), with the same
 // words as results.
 #pragma once
+#include "camera/lens_distortion.h"
 #include "lightfield/scene_side.h"
 #include "reconstruct/list_work.h"
 #include "reconstruct/motion_grid.h"
@@ -43,8 +44,9 @@ const char* nameOf(Intermediate intermediate);
 struct PictureSetup {
     Rect frame;
     FilterTable filter;
-    OutputPattern pattern; ///< of methods that make outputs
-    SearchKernel search;   ///< of methods that search the bins
+    OutputPattern pattern;     ///< of methods that make outputs
+    LensDistortion distortion; ///< of those with a layer map
+    SearchKernel search;       ///< of methods that search the bins
     std::uint64_t seed = 0;
     bool observed = false; ///< intermediates are wanted: even what nothing reads is defined
 };

@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "lib/map_reduce.glsl"
 #include "reconstruct/kernels.h"
+#include "reconstruct/lens_tiles.h"
 
 #include <algorithm>
 #include <limits>
@@ -20,6 +21,26 @@ ivec2 aligned(vec2 px, bool up) {
     return kMapAlignPx * ivec2(up ? glm::ceil(steps) : glm::floor(steps));
 }
 
+struct Box {
+    vec2 low, high;
+};
+
+/// Around the bricks of a grid, on the film. A distorted side is farthest out where it is nearest to the
+/// middle of the film, or at an end.
+Box boxOnFilm(const GridLayout& grid, const LensDistortion& distortion) {
+    const vec2 extent = vec2(grid.brickCount * grid.cellsPerBrick) / grid.invCell;
+    const Box box{grid.origin, grid.origin + extent};
+    if (distortion.empty()) return box;
+    const vec2 middle = glm::clamp(distortion.centre(), box.low, box.high);
+    Box bounds{vec2(kInfinity), vec2(-kInfinity)};
+    for (const float x : {box.low.x, middle.x, box.high.x})
+        for (const float y : {box.low.y, middle.y, box.high.y}) {
+            const vec2 place = distortion.onFilm({x, y});
+            bounds = {glm::min(bounds.low, place), glm::max(bounds.high, place)};
+        }
+    return bounds;
+}
+
 } // namespace
 
 int mapTexelsPerPixel(const LightField& field) {
@@ -27,12 +48,26 @@ int mapTexelsPerPixel(const LightField& field) {
     return sampleCounts(field).max <= 1 ? 1 : kMaxTexelsPerPixel;
 }
 
-float mapReach(const GridLayout& grid, const MotionGrid& motion, float lensScale) {
-    return glm::min(lensScale * largestSlope(grid) + 0.5f * motion.fastestPx(), kMaxReachPx);
+float mapReach(const GridLayout& grid, const MotionGrid& motion, float lensScale,
+               const LensDistortion& distortion) {
+    const float reach = distortion.pupilReach() * lensScale * largestSlope(grid) + 0.5f * motion.fastestPx();
+    return glm::min(reach, kMaxReachPx / distortion.steepest());
 }
 
-int mapRows(const Rect& frame, int texels, float reachPx, bool moves, std::uint64_t bytes) {
-    const double margin = 2 * (double(reachPx) + 3 * kMapAlignPx);
+LensDistortion distortionOver(const Rect& region, const LensMap& lens) {
+    if (lens.empty()) return {};
+    const vec2 centre(lens.texels()[0]), low(float(region.x0), float(region.y0)),
+        high(float(region.x1), float(region.y1));
+    const vec2 farthest = glm::max(glm::abs(low - centre), glm::abs(high - centre));
+    return LensDistortion(lens, glm::length(farthest + 2 * kMaxReachPx));
+}
+
+float mapMarginPx(float reachPx, const LensDistortion& distortion) {
+    return distortion.steepest() * reachPx + distortion.aberrationPx();
+}
+
+int mapRows(const Rect& frame, int texels, float marginPx, bool moves, std::uint64_t bytes) {
+    const double margin = 2 * (double(marginPx) + 3 * kMapAlignPx);
     const double rowTexels = (frame.width() + margin) * texels * texels * 4 / 3; // with all levels
     const double rowBytes = rowTexels * sizeof(glm::uvec4) * (moves ? 2 : 1);
     const double rows = double(bytes) / rowBytes - margin;
@@ -41,16 +76,17 @@ int mapRows(const Rect& frame, int texels, float reachPx, bool moves, std::uint6
             ErrorCode::resources,
             fmt::format("the memory budget is too small for a picture {} pixels wide with blur of {:.0f} "
                         "pixels: for its layer map it has to be {:.0f} MiB",
-                        frame.width(), reachPx, 2 * rowBytes * (kTileSize + margin) / (1 << 20) + 1));
+                        frame.width(), marginPx, 2 * rowBytes * (kTileSize + margin) / (1 << 20) + 1));
     return int(std::min(rows, double(frame.height() + kTileSize)));
 }
 
 MapLayout chooseMap(const GridLayout& grid, const MotionGrid& motion, const Rect& region, int texels,
-                    float reachPx, float spreadPerPx) {
-    const float margin = reachPx + float(2 * kMapAlignPx); // tiles beyond the region, the coarsest texels
-    const vec2 extent = vec2(grid.brickCount * grid.cellsPerBrick) / grid.invCell;
-    const vec2 low = glm::max(vec2(float(region.x0), float(region.y0)) - margin, grid.origin);
-    const vec2 high = glm::min(vec2(float(region.x1), float(region.y1)) + margin, grid.origin + extent);
+                    float reachPx, float spreadPerPx, const LensDistortion& distortion) {
+    const float margin = mapMarginPx(reachPx, distortion) +
+                         float(2 * kMapAlignPx); // tiles beyond the region, the coarsest texels
+    const Box samples = boxOnFilm(grid, distortion);
+    const vec2 low = glm::max(vec2(float(region.x0), float(region.y0)) - margin, samples.low);
+    const vec2 high = glm::min(vec2(float(region.x1), float(region.y1)) + margin, samples.high);
     MapLayout map{};
     map.origin = aligned(low, false);
     map.texelsPerPixel = texels;
@@ -92,6 +128,12 @@ OutputLayout mapTiles(const MapLayout& map) {
     return layout;
 }
 
+OutputPattern mapPattern() {
+    OutputPattern pattern;
+    pattern.groups = pattern.cells = {{vec2(0), vec2(0)}};
+    return pattern;
+}
+
 vec2 texelCenter(const MapLayout& map, ivec2 texel) {
     return vec2(map.origin) + (vec2(texel) + 0.5f) * (1.f / float(map.texelsPerPixel));
 }
@@ -118,23 +160,27 @@ struct MapSweepKernels {
 
 /// The layers of the samples within `searchRadius`.
 template <typename Kernels>
-MapTexel resolveWithin(const SearchContext& context, const MapLayout& map, ivec2 place, float searchRadius) {
+MapTexel resolveWithin(const SearchContext& context, const MapLayout& map, const Output& place,
+                       float searchRadius) {
     const GridLayout& grid = context.bins.grid;
     Kernels kernels{context};
     auto sweep = kernels.newSweep(grid, map.tentPx, float(map.texelsPerPixel), map.code);
-    kernels.forEachCandidate(grid, outputOnFilm(texelCenter(map, place), vec2(0), 0.5f, 0), searchRadius,
-                             sweep.maxRadiusRatio, 0, kernels.listLength(), sweep);
+    kernels.forEachCandidate(grid, place, searchRadius, sweep.maxRadiusRatio, 0, kernels.listLength(), sweep);
     if (sweep.surface.count > 0) kernels.close(sweep, true);
     return sweep.texel;
 }
 
 } // namespace
 
-MapTexel resolveTexel(const SearchContext& context, const MapLayout& map, ivec2 texel) {
+MapTexel resolveTexel(const SearchContext& context, const MapLayout& map, const LensMap& pinhole,
+                      ivec2 texel) {
+    Output place = outputOnFilm(texelCenter(map, texel), vec2(0), 0.5f, 0);
+    if (!pinhole.empty()) toSceneSide(pinhole, place);
+    if (!(place.weight > 0)) return {}; // beyond the lens map
     const auto resolve = context.bins.motion.moves() ? resolveWithin<MapSweepKernels<true>>
                                                      : resolveWithin<MapSweepKernels<false>>;
-    const MapTexel found = resolve(context, map, texel, map.tentPx);
-    return found.count > 1 ? resolve(context, map, texel, 2 * map.tentPx) : found;
+    const MapTexel found = resolve(context, map, place, map.tentPx);
+    return found.count > 1 ? resolve(context, map, place, 2 * map.tentPx) : found;
 }
 
 void reduceLevel(LayerMap& map, int level) {
@@ -169,28 +215,39 @@ void reduceLevel(LayerMap& map, int level) {
 namespace {
 
 /// Lists for outputs through the lens's centre in the middle of the shutter.
-TileLists listsInTheMiddle(const Bins& bins, const OutputLayout& tiles, float marginPx) {
-    const LensBox center{vec2(0), vec2(0)};
+TileLists listsInTheMiddle(const Bins& bins, const OutputLayout& tiles, const LensMap& pinhole,
+                           float marginPx) {
+    const OutputPattern pattern = mapPattern();
     const float middle = 0;
     const BrickOrders orders(bins.motion, bins.brickRanks, {&middle, 1});
-    const auto tilesOf = [&](uint brick, std::size_t) {
-        return tilesSeeing(bins.bricks[brick], bins.grid, tiles, center, marginPx);
+    LensTiles lensTiles;
+    if (!pinhole.empty()) lensTiles = lensTilesOf(pinhole, pattern, 0, 1, bins.grid, tiles, marginPx);
+    const auto tilesOf = [&](uint brick, std::size_t group) {
+        if (pinhole.empty())
+            return tilesSeeing(bins.bricks[brick], bins.grid, tiles, pattern.groups[0], marginPx);
+        return tilesOfCompoundLens(bins, brick, tiles, lensTiles.bounds, group, vec2(0));
     };
     const auto brickAt = [&](std::size_t, std::size_t rank) { return orders.at(0, rank); };
-    return makeTileLists(bins, tiles, 1, {tilesOf, brickAt});
+    GroupSight sight{tilesOf, brickAt};
+    if (!pinhole.empty())
+        sight.sees = [&](uint brick, std::size_t, std::size_t list) {
+            return listSees(bins, brick, lensTiles, list, vec2(0));
+        };
+    return makeTileLists(bins, tiles, 1, sight);
 }
 
 } // namespace
 
-LayerMap makeLayerMap(const Bins& bins, const MapLayout& layout) {
+LayerMap makeLayerMap(const Bins& bins, const MapLayout& layout, const LensDistortion& distortion) {
     LayerMap map;
     map.layout = layout;
     map.texels.resize(levelBegin(layout, layout.levels));
     if (bins.motion.moves()) map.motions.resize(map.texels.size());
     map.motionLayout = bins.motion.layout;
+    map.distortion = distortion.texels();
 
     const OutputLayout tiles = mapTiles(layout);
-    const TileLists lists = listsInTheMiddle(bins, tiles, 2 * layout.tentPx);
+    const TileLists lists = listsInTheMiddle(bins, tiles, distortion.pinhole(), 2 * layout.tentPx);
     parallelFor(0, std::size_t(layout.size.y), 8, [&](std::size_t first, std::size_t last) {
         for (int y = int(first); y < int(last); ++y)
             for (int x = 0; x < layout.size.x; ++x) {
@@ -198,7 +255,8 @@ LayerMap makeLayerMap(const Bins& bins, const MapLayout& layout) {
                 const std::size_t list = std::size_t(tile.y) * tiles.tileCount.x + tile.x;
                 const std::span<const uint> bricks(lists.bricks.data() + lists.start[list],
                                                    lists.start[list + 1] - lists.start[list]);
-                const MapTexel texel = resolveTexel({bins, bricks}, layout, ivec2(x, y));
+                const MapTexel texel =
+                    resolveTexel({bins, bricks}, layout, distortion.pinhole(), ivec2(x, y));
                 const std::size_t place = std::size_t(y) * layout.size.x + x;
                 map.texels[place] = packTexel(texel, layout.code);
                 if (bins.motion.moves()) map.motions[place] = packMotions(texel, bins.motion.layout);

@@ -5,6 +5,7 @@
 #include "reconstruct/plan.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <mutex>
 
@@ -64,6 +65,36 @@ Interval intervalOf(const std::vector<Output>& places, float slope, float margin
     return {seen.low - bulge, seen.high + bulge};
 }
 
+/// The least and the greatest length on the film of a way of one pixel on the scene's side.
+vec2 scalesOf(vec3 filmMetric) {
+    const float mean = 0.5f * (filmMetric.x + filmMetric.z), half = 0.5f * (filmMetric.x - filmMetric.z);
+    const float apart = std::sqrt(half * half + filmMetric.y * filmMetric.y);
+    return {mean - apart, mean + apart};
+}
+
+/// Where a tile looks from, and through what of the pupil.
+std::array<vec4, kListBoxTexels> boxesOf(const std::vector<Output>& places, float marginPx) {
+    Interval seen = intervalOf(places, 0, marginPx), lens;
+    for (const Output& output : places) lens.add(output.uv, output.uv);
+    const vec2 bulge = kBulge * glm::max(lens.high - lens.low, vec2(0));
+    return {vec4(seen.low, seen.high), vec4(lens.low - bulge, lens.high + bulge)};
+}
+
+LensSight sightOf(const std::vector<Output>& places) {
+    if (places.empty()) return {};
+    Interval lens;
+    vec2 scales(kInfinity, 0);
+    float farthest = 0;
+    for (const Output& output : places) {
+        const vec2 here = scalesOf(output.filmMetric);
+        scales = {std::min(scales.x, here.x), std::max(scales.y, here.y)};
+        lens.add(output.uv, output.uv);
+        farthest = std::max(farthest, glm::length(output.uv));
+    }
+    const vec2 width = lens.high - lens.low;
+    return {farthest, scales.y * farthest, scales.y * std::max(width.x, width.y), scales.x};
+}
+
 void ascend(float* low, float* high, int count) {
     for (int i = count - 2; i >= 0; --i) low[i] = std::min(low[i], low[i + 1]);
     for (int i = 1; i < count; ++i) high[i] = std::max(high[i], high[i - 1]);
@@ -71,16 +102,18 @@ void ascend(float* low, float* high, int count) {
 
 } // namespace
 
-std::vector<float> lensTileBounds(const LensMap& lens, const OutputPattern& pattern, std::size_t firstGroup,
-                                  std::size_t groupCount, const GridLayout& grid, const OutputLayout& layout,
-                                  float marginPx) {
+LensTiles lensTilesOf(const LensMap& lens, const OutputPattern& pattern, std::size_t firstGroup,
+                      std::size_t groupCount, const GridLayout& grid, const OutputLayout& layout,
+                      float marginPx) {
     const int columns = layout.tileCount.x, rows = layout.tileCount.y;
     const std::size_t block = 2 * std::size_t(columns + rows);
-    std::vector<float> bounds(groupCount * kLensTileSlopes * block);
+    LensTiles tiles{std::vector<float>(groupCount * kLensTileSlopes * block),
+                    std::vector<vec4>(kListBoxTexels * groupCount * std::size_t(columns) * std::size_t(rows)),
+                    std::vector<LensSight>(groupCount * std::size_t(columns) * std::size_t(rows))};
     parallelFor(0, groupCount, 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t group = first; group < last; ++group) {
             const auto at = [&](int slope) {
-                return bounds.data() + (group * kLensTileSlopes + std::size_t(slope)) * block;
+                return tiles.bounds.data() + (group * kLensTileSlopes + std::size_t(slope)) * block;
             };
             for (int k = 0; k < kLensTileSlopes; ++k) {
                 std::fill_n(at(k), columns, kFarPx);
@@ -92,6 +125,11 @@ std::vector<float> lensTileBounds(const LensMap& lens, const OutputPattern& patt
                 for (int x = 0; x < columns; ++x) {
                     const vec2 corner(layout.regionOrigin + kTileSize * ivec2(x, y));
                     const std::vector<Output> places = placesOf(lens, pattern, firstGroup + group, corner);
+                    const std::size_t list =
+                        (group * std::size_t(rows) + std::size_t(y)) * std::size_t(columns) + std::size_t(x);
+                    tiles.sights[list] = sightOf(places);
+                    std::ranges::copy(boxesOf(places, marginPx),
+                                      tiles.boxes.begin() + std::ptrdiff_t(kListBoxTexels * list));
                     for (int k = 0; k < kLensTileSlopes; ++k) {
                         const Interval seen = intervalOf(places, slopeAt(grid, k), marginPx);
                         float *column = at(k) + x, *row = at(k) + 2 * columns + y;
@@ -107,7 +145,7 @@ std::vector<float> lensTileBounds(const LensMap& lens, const OutputPattern& patt
             }
         }
     });
-    return bounds;
+    return tiles;
 }
 
 namespace {
@@ -119,15 +157,24 @@ struct LensTileKernels {
 #include "lib/lens_tiles.glsl"
 };
 
+SweptBrick sweptAt(const Bins& bins, uint brick, vec2 times) {
+    SweptBrick swept = sweptBrick(bins.bricks[brick], bins.grid);
+    if (bins.motion.moves()) sweepOver(swept, bins.brickMotions[brick], times, bins.motion.layout.c2);
+    return swept;
+}
+
 } // namespace
 
 TileRange tilesOfCompoundLens(const Bins& bins, uint brick, const OutputLayout& layout,
                               std::span<const float> bounds, std::size_t group, vec2 times) {
-    SweptBrick swept = sweptBrick(bins.bricks[brick], bins.grid);
-    if (bins.motion.moves()) sweepOver(swept, bins.brickMotions[brick], times, bins.motion.layout.c2);
-    const ivec4 tiles =
-        LensTileKernels{bounds.data()}.tilesOfCompoundLens(swept, bins.grid, layout, int(group));
+    const ivec4 tiles = LensTileKernels{bounds.data()}.tilesOfCompoundLens(sweptAt(bins, brick, times),
+                                                                           bins.grid, layout, int(group));
     return {ivec2(tiles.x, tiles.y), ivec2(tiles.z, tiles.w)};
+}
+
+bool listSees(const Bins& bins, uint brick, const LensTiles& tiles, std::size_t list, vec2 times) {
+    const vec4* box = tiles.boxes.data() + kListBoxTexels * list;
+    return isSeen(sweptAt(bins, brick, times), box[0], box[1]);
 }
 
 Rect searchRegionOf(const SceneSideSamples& source, const FilterTable& filter) {

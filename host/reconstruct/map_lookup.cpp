@@ -25,13 +25,15 @@ struct ClassifyKernels {
 #include "lib/classify_moving.glsl"
 };
 
-template <bool kMoving>
+template <bool kMoving, bool kCompoundLens>
 struct LookupKernels {
     const LayerMap& map;
     std::span<const Cluster> clusters;
     const MapLayout& mapLayout = map.layout;
     const MotionLayout& motionLayout = map.motionLayout;
+    vec4 distortionHead = kCompoundLens ? map.distortion[0] : vec4(0);
 
+    const vec4& distortionAt(int i) const { return map.distortion[std::size_t(i)]; }
     const uvec4& mapTexelAt(int i) const { return map.texels[std::size_t(i)]; }
     const uvec4& mapMotionAt(int i) const { return map.motions[std::size_t(i)]; }
     const Cluster& clusterAt(int i) const { return clusters[std::size_t(i)]; }
@@ -40,14 +42,18 @@ struct LookupKernels {
 
 } // namespace
 
-ListClass classOfList(const Bins& bins, std::span<const uint> bricks, const LensBox& lens, vec2 times,
-                      float lensScale, const MapLayout& map) {
+LensSight sightThrough(const LensBox& box, float lensScale) {
+    const vec2 farthest = glm::max(glm::abs(box.min), glm::abs(box.max)), width = box.max - box.min;
+    const float radius = std::min(std::sqrt(farthest.x * farthest.x + farthest.y * farthest.y), lensScale);
+    return {radius, radius, std::max(width.x, width.y), 1};
+}
+
+ListClass classOfList(const Bins& bins, std::span<const uint> bricks, const LensSight& sight, vec2 times,
+                      const MapLayout& map) {
     ListClass listClass;
     ClassifyKernels kernels{bins, bricks, map, listClass.clusters};
-    const vec4 box(lens.min, lens.max);
-    const uint code = bins.motion.moves()
-                          ? kernels.movingClassOf(0, uint(bricks.size()), box, times, lensScale)
-                          : kernels.classOf(0, uint(bricks.size()), box, lensScale);
+    const uint code = bins.motion.moves() ? kernels.movingClassOf(0, uint(bricks.size()), sight, times)
+                                          : kernels.classOf(0, uint(bricks.size()), sight);
     listClass.inFocus = (code & kInFocusBit) != 0;
     listClass.sparse = (code & kSparseBit) != 0;
     if ((code & (kInFocusBit - 1)) == 0) listClass.clusters.clear();
@@ -79,8 +85,11 @@ std::optional<vec3> lookThrough(const LayerMap& map, std::span<const Cluster> cl
                                 float time) {
     vec3 sum(0);
     const auto look = [&](auto kernels) { return kernels.look({x, uv, time}, 0, int(clusters.size()), sum); };
-    const bool met = map.motions.empty() ? look(LookupKernels<false>{map, clusters})
-                                         : look(LookupKernels<true>{map, clusters});
+    const bool moves = !map.motions.empty();
+    const bool met = map.distortion.empty() ? moves ? look(LookupKernels<true, false>{map, clusters})
+                                                    : look(LookupKernels<false, false>{map, clusters})
+                     : moves ? look(LookupKernels<true, true>{map, clusters})
+                                            : look(LookupKernels<false, true>{map, clusters});
     if (!met) return {};
     return sum;
 }

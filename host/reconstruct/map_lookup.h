@@ -25,10 +25,12 @@ struct ListClass {
     }
 };
 
-/// How to make the outputs of a list that look through `lens`, a part of the disc of radius `lensScale`;
-/// where things move, from the first to the last of `times`.
-ListClass classOfList(const Bins& bins, std::span<const uint> bricks, const LensBox& lens, vec2 times,
-                      float lensScale, const MapLayout& map);
+/// Of outputs through `box`, a part of a thin lens's disc of radius `lensScale`.
+LensSight sightThrough(const LensBox& box, float lensScale);
+
+/// How to make the outputs of a list; where things move, from the first to the last of `times`.
+ListClass classOfList(const Bins& bins, std::span<const uint> bricks, const LensSight& sight, vec2 times,
+                      const MapLayout& map);
 
 /// Where the outputs of a pattern lie on the lens, and when (from the middle of the shutter), if they are
 /// taken from the map: in their cells, as evenly as possible.
@@ -37,8 +39,8 @@ std::vector<vec4> lensPoints(const OutputPattern& pattern);
 /// See MapLayout::spreadPerPx.
 float spreadPerPx(const OutputPattern& pattern);
 
-/// What is seen at raster position x through lens position uv at `time` from the middle of the shutter;
-/// nothing where no surface is met.
+/// What is seen at raster position x through lens position uv, on the scene's side, at `time` from the middle
+/// of the shutter; nothing where no surface is met.
 std::optional<vec3> lookThrough(const LayerMap& map, std::span<const Cluster> clusters, vec2 x, vec2 uv,
                                 float time = 0);
 

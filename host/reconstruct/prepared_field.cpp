@@ -18,6 +18,7 @@ public:
             Engine& engine, Monitor& monitor, ReconstructReport& report, IntermediateObserver* observer)
         : field_(samples.field()), options_(options), view_(view), engine_(engine), monitor_(monitor),
           report_(report), observer_(observer), filter_(makeFilterTable(options.filter)),
+          distortion_(distortionOver(outputRegion(field_.frame, filter_), field_.lensMap)),
           maxSamples_(std::min(maxDenseSamples(options), engine.maxDenseSamples())) {}
 
     const FilterTable& filter() const { return filter_; }
@@ -64,13 +65,15 @@ public:
         const OutputPattern& pattern = begin(patternFor(largestSlope(grid), engine_.motion().fastestPx()));
         const int texels = mapTexelsPerPixel(field_);
         const MotionGrid& motion = engine_.motion();
-        const float reach = mapReach(grid, motion, pattern.lensScale);
-        const int maxRows =
-            usesMap ? mapRows(field_.frame, texels, reach, motion.moves(), options_.memoryBytes / 2)
-                    : std::numeric_limits<int>::max();
+        const float reach = mapReach(grid, motion, pattern.lensScale, distortion_);
+        const int maxRows = usesMap ? mapRows(field_.frame, texels, mapMarginPx(reach, distortion_),
+                                              motion.moves(), options_.memoryBytes / 2)
+                                    : std::numeric_limits<int>::max();
         const Plan plan = planOutputs(field_.frame, filter_, pattern, maxSamples_, maxRows);
         const auto beginBand = [&](const Band& band) {
-            if (usesMap) makeMap(chooseMap(grid, motion, band.region, texels, reach, spreadPerPx(pattern)));
+            if (usesMap)
+                makeMap(
+                    chooseMap(grid, motion, band.region, texels, reach, spreadPerPx(pattern), distortion_));
         };
         forEachChunk(plan, pattern, beginBand, [&](const Chunk& chunk) { return search(chunk, usesMap); });
     }
@@ -85,8 +88,8 @@ private:
 
     const OutputPattern& begin(OutputPattern pattern) {
         pattern_ = std::move(pattern);
-        engine_.begin({field_.frame, filter_, pattern_, traitsOf(options_.method).search, options_.seed,
-                       observer_ != nullptr});
+        engine_.begin({field_.frame, filter_, pattern_, distortion_, traitsOf(options_.method).search,
+                       options_.seed, observer_ != nullptr});
         return pattern_;
     }
 
@@ -155,6 +158,7 @@ private:
     ReconstructReport& report_;
     IntermediateObserver* observer_;
     FilterTable filter_;
+    LensDistortion distortion_;
     std::uint64_t maxSamples_;
     OutputPattern pattern_;
 };
@@ -178,9 +182,8 @@ Image PreparedField::picture(const LensView& view, ValuePlane plane, Monitor& mo
         picture.fromWindows();
         break;
     case DenseSource::bins:
-        // Through a compound lens every output has its own metric and its own part of a distorted picture:
-        // there is no layer map for that.
-        picture.fromBins(traits.usesLayerMap && samples_.field().lensMap.empty());
+        // Rims cut the disc of a stop sharply: what corners of tiles know of that is too coarse.
+        picture.fromBins(traits.usesLayerMap && !samples_.field().lensMap.ofStop());
         break;
     }
     engine_->addPassTimes(report);

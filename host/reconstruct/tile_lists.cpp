@@ -54,8 +54,10 @@ TileLists makeTileLists(const Bins& bins, const OutputLayout& layout, std::size_
             const uint brick = sight.brickAt ? sight.brickAt(group, rank) : uint(rank);
             const TileRange range = sight.tilesOf(brick, group);
             for (int y = range.first.y; y < range.last.y; ++y)
-                for (int x = range.first.x; x < range.last.x; ++x)
-                    visit(group * tiles + std::size_t(y) * layout.tileCount.x + x, brick);
+                for (int x = range.first.x; x < range.last.x; ++x) {
+                    const std::size_t list = group * tiles + std::size_t(y) * layout.tileCount.x + x;
+                    if (!sight.sees || sight.sees(brick, group, list)) visit(list, brick);
+                }
         }
     };
     parallelFor(0, groups, 1, [&](std::size_t first, std::size_t last) {

@@ -55,6 +55,8 @@ TileLists makeTileLists(const Bins& bins, const OutputLayout& layout, std::span<
 struct GroupSight {
     std::function<TileRange(uint brick, std::size_t group)> tilesOf;
     std::function<uint(std::size_t group, std::size_t rank)> brickAt; ///< front to back; unset: as they are
+    /// Unset: the tiles all do.
+    std::function<bool(uint brick, std::size_t group, std::size_t list)> sees = {};
 };
 TileLists makeTileLists(const Bins& bins, const OutputLayout& layout, std::size_t groups,
                         const GroupSight& sight);

@@ -22,13 +22,13 @@ KERNEL float levelFor(float slope) {
     return float(level);
 }
 
-KERNEL void close(INOUT(Clusters) found, float lensRadius, float lensWidth) {
-    const float least = max(found.slopeMin, -found.slopeMax); // to either side
-    const float most = max(-found.slopeMin, found.slopeMax), reach = most * lensRadius;
+KERNEL void close(INOUT(Clusters) found, IN(LensSight) sight) {
+    const float least = sight.blur * max(found.slopeMin, -found.slopeMax); // to either side
+    const float most = max(-found.slopeMin, found.slopeMax), reach = most * sight.reach;
     found.inFocus = found.inFocus || least < kMinSlope;
-    found.sparse = found.sparse && most * lensWidth <= kSparsePx;
+    found.sparse = found.sparse && most * sight.width <= kSparsePx;
     found.fits = found.fits && reach <= mapLayout.reachPx &&
-                 (found.slopeMax - found.slopeMin) * lensRadius <= kWidestClusterPx &&
+                 (found.slopeMax - found.slopeMin) * sight.radius <= kWidestClusterPx &&
                  found.count < kMaxClusters;
     keepCluster(found.count, stillCluster(found.slopeMin, found.slopeMax, levelFor(least)));
     ++found.count;
@@ -45,12 +45,8 @@ KERNEL uint listClassOf(IN(Clusters) found, float finest, bool complete) {
     return listClass;
 }
 
-/// ListClass of the list [begin, end), seen through lens positions of `lensBox` (min, max), a part of the
-/// disc of radius `lensScale`; as in the buffer of classes, see kInFocusBit and kSparseBit.
-KERNEL uint classOf(uint begin, uint end, vec4 lensBox, float lensScale) {
-    const vec2 farthest = max(abs(vec2(lensBox)), abs(vec2(lensBox.z, lensBox.w)));
-    const float lensRadius = min(sqrt(farthest.x * farthest.x + farthest.y * farthest.y), lensScale);
-    const float lensWidth = max(lensBox.z - lensBox.x, lensBox.w - lensBox.y);
+/// ListClass of the list [begin, end), as in the buffer of classes, see kInFocusBit and kSparseBit.
+KERNEL uint classOf(uint begin, uint end, IN(LensSight) sight) {
     Clusters found = {0u, true, false, true, kInfinity, -kInfinity};
     float finest = 1.0f; // own radius, over R
     const uint last = min(end, begin + uint(kMaxLoopIterations));
@@ -58,13 +54,13 @@ KERNEL uint classOf(uint begin, uint end, vec4 lensBox, float lensScale) {
         IN(Brick) brick = listedBrick(entry);
         finest = min(finest, widestRadius(brick));
         if (entry > begin && brick.slopeMin > found.slopeMax + mapLayout.surfaceGap) {
-            close(found, lensRadius, lensWidth);
+            close(found, sight);
             found.slopeMin = brick.slopeMin;
             found.slopeMax = brick.slopeMax;
         }
         found.slopeMin = min(found.slopeMin, brick.slopeMin);
         found.slopeMax = max(found.slopeMax, brick.slopeMax);
     }
-    if (end > begin) close(found, lensRadius, lensWidth);
+    if (end > begin) close(found, sight);
     return listClassOf(found, finest, last == end);
 }

@@ -10,7 +10,7 @@
 
 /// Through which part of lens and shutter a list looks.
 struct ListSight {
-    float lensRadius, lensWidth;
+    LensSight lens;
     float farTime, timeWidth; // from the middle of the shutter; from first to last
 };
 
@@ -46,14 +46,14 @@ KERNEL vec2 speedRange(IN(Cluster) cluster) {
 
 /// Judges a cluster when all bricks are in it, and sets its level.
 KERNEL void judge(INOUT(Clusters) found, INOUT(Cluster) cluster, IN(ListSight) sight) {
-    const float least = max(cluster.slopeMin, -cluster.slopeMax); // to either side
+    const float least = sight.lens.blur * max(cluster.slopeMin, -cluster.slopeMax); // to either side
     const float most = max(-cluster.slopeMin, cluster.slopeMax);
     const vec2 speed = speedRange(cluster), range = cluster.velocityHigh - cluster.velocityLow;
     found.inFocus = found.inFocus || least < kMinSlope;
-    found.sparse = found.sparse && most * sight.lensWidth + speed.y * sight.timeWidth <= kSparsePx;
+    found.sparse = found.sparse && most * sight.lens.width + speed.y * sight.timeWidth <= kSparsePx;
     found.fits =
-        found.fits && most * sight.lensRadius + speed.y * sight.farTime <= mapLayout.reachPx &&
-        (cluster.slopeMax - cluster.slopeMin) * sight.lensRadius + max(range.x, range.y) * sight.farTime <=
+        found.fits && most * sight.lens.reach + speed.y * sight.farTime <= mapLayout.reachPx &&
+        (cluster.slopeMax - cluster.slopeMin) * sight.lens.radius + max(range.x, range.y) * sight.farTime <=
             kWidestClusterPx;
     cluster.level = levelFor(blurSpread(least, speed.x));
 }
@@ -72,11 +72,8 @@ KERNEL void addBrick(INOUT(Clusters) found, IN(Cluster) brick) {
         found.fits = false;
 }
 
-KERNEL uint movingClassOf(uint begin, uint end, vec4 lensBox, vec2 times, float lensScale) {
-    const vec2 farthest = max(abs(vec2(lensBox)), abs(vec2(lensBox.z, lensBox.w)));
-    const ListSight sight = {min(sqrt(farthest.x * farthest.x + farthest.y * farthest.y), lensScale),
-                             max(lensBox.z - lensBox.x, lensBox.w - lensBox.y),
-                             max(abs(times.x), abs(times.y)), times.y - times.x};
+KERNEL uint movingClassOf(uint begin, uint end, IN(LensSight) lens, vec2 times) {
+    const ListSight sight = {lens, max(abs(times.x), abs(times.y)), times.y - times.x};
     Clusters found = {0u, true, false, true, 0.0f, 0.0f};
     float finest = 1.0f; // own radius, over R
     const uint last = min(end, begin + uint(kMaxLoopIterations / kMaxClusters));

@@ -130,6 +130,14 @@ KERNEL ivec4 tilesOver(vec2 low, vec2 high, IN(OutputLayout) outputs) {
                  min(ivec2(tileOf(to.x), tileOf(to.y)) + 1, outputs.tileCount));
 }
 
+/// Whether outputs at `xy` (low, high, with a margin) that look through `uv` (the same) can see a brick.
+KERNEL bool isSeen(IN(SweptBrick) brick, vec4 xy, vec4 uv) {
+    const Shift shift = shiftOver(vec2(uv), vec2(uv.z, uv.w), brick.slopeMin, brick.slopeMax);
+    const vec2 low = vec2(xy) - shift.high, high = vec2(xy.z, xy.w) - shift.low;
+    return brick.box.low.x <= high.x && brick.box.low.y <= high.y && brick.box.high.x >= low.x &&
+           brick.box.high.y >= low.y;
+}
+
 /// Tiles whose outputs, through lens positions of `lensBox` (min, max), can see a sample of the brick:
 /// first.xy, last.zw, half-open; empty where last <= first.
 KERNEL ivec4 tilesSeeing(IN(Brick) brick, IN(GridLayout) grid, IN(OutputLayout) outputs, vec4 lensBox,

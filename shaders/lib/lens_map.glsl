@@ -25,22 +25,38 @@ KERNEL vec4 lensMapInPlace(int index, IN(LensMapPlace) place) {
     return a + place.rings * (lensMapInRing(index + place.plane, place.row, place.part, place.between) - a);
 }
 
-/// From film and pupil, `lens` in the unit disc, to the scene's side.
-KERNEL SceneRay sceneRay(vec2 raster, vec2 lens) {
-    const vec4 head = lensMapAt(0), shape = lensMapAt(1);
+/// A place of the film.
+struct FilmPlace {
+    vec2 centre; // of the film
+    float r;     // from there
+    vec2 e;      // direction of the radius
+    bool inside; // false: beyond the map
+    vec4 here;   // of the radii
+};
+
+KERNEL FilmPlace filmPlace(vec2 raster) {
+    const vec4 head = lensMapAt(0);
     const vec2 offset = raster - vec2(head);
     const float r = sqrt(offset.x * offset.x + offset.y * offset.y);
     const float radii = r * head.z;
-    SceneRay place = {vec2(0.0f), vec2(0.0f), vec3(0.0f), vec2(0.0f), 0.0f, 0.0f};
-    if (!(radii < head.w - 1.0f)) return place;
-    const int radius = int(radii);
+    const bool inside = radii < head.w - 1.0f;
+    const int radius = inside ? int(radii) : 0;
     const vec4 here = lensMapAlong(kLensMapHeader + radius, radii - float(radius));
-    if (!(here.w > 0.0f)) return place;
+    const FilmPlace place = {vec2(head), r, r > 0.0f ? offset / r : vec2(1.0f, 0.0f), inside, here};
+    return place;
+}
 
-    // In the frame of the radius.
-    const vec2 e = r > 0.0f ? offset / r : vec2(1.0f, 0.0f);
+/// From the frame of the radius to that of the film.
+KERNEL vec2 turned(IN(FilmPlace) film, vec2 x) {
+    return vec2(x.x * film.e.x - x.y * film.e.y, x.x * film.e.y + x.y * film.e.x);
+}
+
+/// In the frame of the radius.
+KERNEL LensNode lensNode(IN(FilmPlace) film, vec2 lens) {
+    const vec4 head = lensMapAt(0), shape = lensMapAt(1);
+    const vec2 e = film.e;
     const vec2 d = vec2(lens.x * e.x + lens.y * e.y, lens.y * e.x - lens.x * e.y);
-    const float rings = min(r * shape.x, shape.y - 1.0f);
+    const float rings = min(film.r * shape.x, shape.y - 1.0f);
     const int ring = min(int(rings), int(shape.y) - 2);
     const float norm = abs(d.x) + abs(d.y);
     const float turns = norm > 0.0f ? (1.0f - d.x / norm) * (shape.z * 0.5f) : 0.0f;
@@ -52,19 +68,36 @@ KERNEL SceneRay sceneRay(vec2 raster, vec2 lens) {
     const int first = kLensMapHeader + int(head.w) + ring * plane + turn * row + distance_;
     const LensMapPlace at = {row, plane, distances - float(distance_), turns - float(turn),
                              rings - float(ring)};
-    const vec4 node = lensMapInPlace(first, at);
-    place.weight = here.w;
-    place.openShare = 1.0f;
-    if (lensMapAt(2).x > 0.0f) {
-        const vec4 light = lensMapInPlace(first + plane * int(shape.y), at);
-        place.weight = light.y >= 0.0f ? light.x : 0.0f;
-        place.openShare = light.z;
-    }
-
+    LensNode found = {lensMapInPlace(first, at), vec4(0.0f)};
     const float side = d.y < 0.0f ? -1.0f : 1.0f;
-    const vec2 x = vec2(here.x + here.y * node.x, here.z * (side * node.y)), u = vec2(node.z, side * node.w);
-    place.xy = vec2(head) + vec2(x.x * e.x - x.y * e.y, x.x * e.y + x.y * e.x);
-    place.uv = vec2(u.x * e.x - u.y * e.y, u.x * e.y + u.y * e.x);
+    found.node.y *= side;
+    found.node.w *= side;
+    if (lensMapAt(2).x > 0.0f) found.light = lensMapInPlace(first + plane * int(shape.y), at);
+    return found;
+}
+
+/// The same in the frame of the film.
+KERNEL LensNode lensNodeAt(vec2 raster, vec2 lens) {
+    const FilmPlace film = filmPlace(raster);
+    LensNode found = lensNode(film, lens);
+    found.node = vec4(turned(film, vec2(found.node)), turned(film, vec2(found.node.z, found.node.w)));
+    return found;
+}
+
+/// From film and pupil, `lens` in the unit disc, to the scene's side.
+KERNEL SceneRay sceneRay(vec2 raster, vec2 lens) {
+    SceneRay place = {vec2(0.0f), vec2(0.0f), vec3(0.0f), vec2(0.0f), 0.0f, 0.0f};
+    const FilmPlace film = filmPlace(raster);
+    const vec4 here = film.here;
+    if (!(film.inside && here.w > 0.0f)) return place;
+    const LensNode found = lensNode(film, lens);
+    const vec4 node = found.node;
+    const bool ofStop = lensMapAt(2).x > 0.0f;
+    place.weight = !ofStop ? here.w : found.light.y >= 0.0f ? found.light.x : 0.0f;
+    place.openShare = ofStop ? found.light.z : 1.0f;
+    place.xy = film.centre + turned(film, vec2(here.x + here.y * node.x, here.z * node.y));
+    place.uv = turned(film, vec2(node.z, node.w));
+    const vec2 e = film.e;
     const float along = 1.0f / here.y, across = 1.0f / here.z;
     place.filmMetric = vec3(across + e.x * e.x * (along - across), e.x * e.y * (along - across),
                             across + e.y * e.y * (along - across));

@@ -42,7 +42,7 @@ KERNEL ivec2 meeting(IN(BoundsAt) at, int offset, int count, float from, float t
     return range;
 }
 
-/// Like tilesSeeing of lib/grid.glsl; `group` counts from the first of the bounds.
+/// Like tilesSeeing of lib/grid.glsl, and more of them; `group` counts from the first of the bounds.
 KERNEL ivec4 tilesOfCompoundLens(IN(SweptBrick) brick, IN(GridLayout) grid, IN(OutputLayout) outputs,
                                  int group) {
     const float steps = float(kLensTileSlopes - 1) * grid.invBucket / float(grid.bucketCount);

@@ -1,9 +1,11 @@
 // What is seen at a place through a lens position, from the layer map (host/reconstruct/map_lookup.h).
 //
 // Needs, declared before the include: mapTexelAt(int), which reads the map, and clusterAt(int), which reads
-// clusters; mapLayout; and kMoving, whether anything moves, and then mapMotionAt(int) and motionLayout. In
-// C++ it is included in a struct that has these, after lib/map_texel.glsl and lib/motion.glsl.
+// clusters; mapLayout; kMoving, whether anything moves, and then mapMotionAt(int) and motionLayout; and
+// kCompoundLens, whether the map is distorted, and then what lib/lens_distortion.glsl needs. In C++ it is
+// included in a struct that has these, after lib/map_texel.glsl and lib/motion.glsl.
 #include "lib/candidate.glsl"
+#include "lib/lens_distortion.glsl"
 #include "lib/map_texel.glsl"
 #include "lib/motion.glsl"
 
@@ -85,6 +87,7 @@ KERNEL vec2 placeOn(IN(Lookup) lookup, IN(Sight) ray, IN(FoundLayer) layer) {
         const vec2 rate = vec2(layer.motion) - layer.motion.z * (layer.slope - motionLayout.c2) * ray.uv;
         p -= ray.time / (1.0f + ray.time * layer.motion.z) * rate;
     }
+    if (kCompoundLens) p = distorted(p);
     return p * lookup.scale;
 }
 

@@ -57,12 +57,22 @@ struct MapLayout {
     ivec2 size;         // texels of level 0
     int texelsPerPixel; // along a side, 1 or kMaxTexelsPerPixel, see mapTexelsPerPixel
     int levels;
-    float surfaceGap;  // as GridLayout
-    float reachPx;     // a surface that moves farther over the lens may lie outside the map
+    float surfaceGap; // as GridLayout
+    float
+        reachPx; // a surface that moves farther over the lens may lie outside the map; of its slope's pixels
     float spreadPerPx; // distance of lens positions on a surface that is blurred over a pixel to each side
     SlopeCode code;
     float radiusPx; // as GridLayout
     float tentPx;   // width of a texel of level 0, which is searched for within twice that
+};
+
+/// Through which part of the lens a list looks. One texel.
+struct LensSight {
+    float reach; // the farthest lens position from the middle
+    // Of a surface of slope 1, in pixels of the film:
+    float radius; // how far it may lie from its pinhole position
+    float width;  // how far it may move from one lens position to another
+    float blur;   // by how much all of the lens spreads it at least
 };
 
 /// A range of slopes, pixels per lens radius, and the level of the map where it is looked up. Where things
@@ -102,7 +112,6 @@ struct MapLookupPush {
     uint count;      // lists
     int groupBits;   // 2^groupBits outputs of a pixel share a list
     int sparseBits;  // 2^sparseBits of them are made in sparse lists
-    float lensScale; // as OutputPush
 };
 
 SLANT_SHARED_END

@@ -40,6 +40,8 @@ SLANT_SHARED_CONSTANT int kMaxLoopIterations = 4000;
 SLANT_SHARED_CONSTANT float kMinVisible = 0.0625f;
 /// Slopes at which bounds of tiles are kept (host/reconstruct/lens_tiles.h).
 SLANT_SHARED_CONSTANT int kLensTileSlopes = 9;
+/// Of each list: where its outputs lie on the scene's side, and on the pupil.
+SLANT_SHARED_CONSTANT int kListBoxTexels = 2;
 /// Sort key of a sample that no output can use.
 SLANT_SHARED_CONSTANT uint kNotBinned = 0xffffffffu;
 

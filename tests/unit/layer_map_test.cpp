@@ -47,7 +47,7 @@ struct Fixture {
     ListClass listClass(const LensBox& lens, float reachPx) const {
         MapLayout layout = map.layout;
         layout.reachPx = reachPx;
-        return classOfList(bins, allBricks, lens, vec2(0), 1, layout);
+        return classOfList(bins, allBricks, sightThrough(lens, 1), vec2(0), layout);
     }
 };
 
@@ -124,7 +124,7 @@ TEST(Layers, clustersAreToldApart) {
     EXPECT_FALSE(listClass.inFocus);
     EXPECT_TRUE(f.listClass(lens, 8).clusters.empty()) << "reaches further than the map";
     EXPECT_FALSE(f.listClass({vec2(0), vec2(0.5f)}, 8).clusters.empty());
-    EXPECT_TRUE(classOfList(f.bins, {}, lens, vec2(0), 1, f.map.layout).clusters.empty());
+    EXPECT_TRUE(classOfList(f.bins, {}, sightThrough(lens, 1), vec2(0), f.map.layout).clusters.empty());
 }
 
 TEST(Layers, whatIsInFocusIsServedWhereSamplesAreNoFinerThanTexels) {

@@ -246,7 +246,7 @@ TEST(Classify, clustersAreThoseOfAllListedSamples) {
                 const std::span<const uint> bricks(all.bricks.data() + all.start[list],
                                                    all.start[list + 1] - all.start[list]);
                 const LensBox& lens = pattern.groups[list / perGroup];
-                const ListClass got = classOfList(bins, bricks, lens, vec2(0), 1, map);
+                const ListClass got = classOfList(bins, bricks, sightThrough(lens, 1), vec2(0), map);
                 const Classified expected = classified(bins, bricks, lens, map);
                 ++lists;
                 ASSERT_EQ(!got.clusters.empty(), expected.served) << list;

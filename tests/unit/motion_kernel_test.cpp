@@ -271,7 +271,8 @@ TEST(MotionKernel, clustersAreOfSlopeAndVelocity) {
         }
         bins.motion.layers = {0};
         const LensBox lens{vec2(-1), vec2(1)};
-        EXPECT_EQ(classOfList(bins, ids, lens, vec2(-0.5f, 0.5f), 1, map).clusters.size(), c.clusters)
+        EXPECT_EQ(classOfList(bins, ids, sightThrough(lens, 1), vec2(-0.5f, 0.5f), map).clusters.size(),
+                  c.clusters)
             << c.bricks.size() << " bricks, the last at " << c.bricks.back().y;
     }
 }
