@@ -190,11 +190,9 @@ void Upgrade::texture() {
 }
 
 void Upgrade::plastic() {
-    become("coateddiffuse");
-    if (removeIf("Ks", 0)) {
-        become("diffuse");
-        remove({"roughness", "eta"});
-    }
+    const bool isDull = removeIf("Ks", 0);
+    become(isDull ? "diffuse" : "coateddiffuse");
+    if (isDull) remove({"roughness", "eta"});
     rename("Kd", "reflectance");
 }
 

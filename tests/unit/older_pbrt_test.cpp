@@ -26,6 +26,8 @@ TEST(OlderPbrt, saysSoOnce) {
                 testing::ElementsAre("s.pbrt:1:1: this is of an older pbrt; the scene is read as pbrt's own "
                                      "upgrade translates it"));
     EXPECT_THAT(warningsOf("Film \"rgb\" WorldBegin Material \"diffuse\""), testing::IsEmpty());
+    EXPECT_THAT(warningsOf("WorldBegin Material \"plastic\" \"color Ks\" [.1 .1 .1]"),
+                testing::Contains("s.pbrt:1:12: 'Ks' of the older material \"plastic\" is dropped"));
 }
 
 TEST(OlderPbrt, options) {
