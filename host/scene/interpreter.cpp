@@ -196,7 +196,8 @@ void Interpreter::finish() {
         throw badInput(saved_.back().where, "this {} is never closed",
                        saved_.back().isObject ? "ObjectBegin" : "AttributeBegin");
     textures_.buildAll();
-    materials_.build(scene_, textures_);
+    materials_.build(scene_, textures_, files_);
+    dropInterfaces(scene_);
     for (const PendingInstance& instance : instances_) {
         const auto object = objects_.find(instance.name);
         if (object == objects_.end()) {

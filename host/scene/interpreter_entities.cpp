@@ -170,7 +170,7 @@ void Interpreter::areaLightSource(Tokenizer& tokens, const Position& where) {
     const std::string kind = stringOf(tokens.next());
     ParameterList parameters =
         list(fmt::format("AreaLightSource \"{}\"", printable(kind)), tokens, where, AttributeTarget::light);
-    scene_.areaLights.push_back(readAreaLight(kind, parameters));
+    scene_.areaLights.push_back(readAreaLight(kind, parameters, files_));
     state_.areaLightIndex = int(scene_.areaLights.size()) - 1;
 }
 
@@ -190,7 +190,7 @@ void Interpreter::shape(Tokenizer& tokens, const Position& where) {
     if (inObject && state_.areaLightIndex >= 0)
         warn(where, "shapes of an object cannot emit light, as in pbrt; this one is dark");
     auto& target = inObject ? scene_.objects[std::size_t(openObject_)].shapes : scene_.shapes;
-    for (Shape& shape : readShapes(kind, parameters, scene_, files_)) {
+    for (Shape& shape : readShapes(kind, parameters, scene_, files_, textures_)) {
         shape.worldFromObject = worldFromObject;
         shape.reverseOrientation = state_.reverseOrientation;
         shape.materialIndex = state_.materialIndex;

@@ -3,13 +3,14 @@
 #include "scene/parameters.h"
 #include "scene/scene.h"
 
+#include <deque>
 #include <map>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace slant {
 
+class SceneFiles;
 class TextureTable;
 
 /// Hands out the indices of Scene::materials at once and builds them at the end, since pbrt lets a material
@@ -26,7 +27,7 @@ public:
     int use(const std::string& name, const Position& where);
 
     /// Fills `scene.materials`. Throws Error(badInput), also for names that were used but never made.
-    void build(Scene& scene, TextureTable& textures);
+    void build(Scene& scene, TextureTable& textures, SceneFiles& files);
 
 private:
     struct Entry {
@@ -37,9 +38,15 @@ private:
     };
 
     int indexOf(const std::string& name, const Position& where);
+    Material read(Entry& entry, TextureTable& textures, SceneFiles& files);
+    void readMix(Material& material, ParameterList& parameters, TextureTable& textures);
+    void checkMixes(const Scene& scene) const;
 
-    std::vector<Entry> entries_;
+    std::deque<Entry> entries_;
     std::map<std::string, int> named_;
 };
+
+/// Takes out the shapes that are "interface": light passes them, and without media they do nothing.
+void dropInterfaces(Scene& scene);
 
 } // namespace slant

@@ -22,7 +22,7 @@ constexpr float kMaxFilterRadiusPx = 128;
 constexpr std::string_view kFilters[] = {"box", "triangle", "gaussian", "mitchell", "sinc"};
 constexpr std::string_view kSamplers[] = {"halton",     "independent", "paddedsobol", "sobol",
                                           "stratified", "zsobol",      "pmj02bn"};
-constexpr std::string_view kCameras[] = {"perspective", "realistic"};
+constexpr std::string_view kCameras[] = {"perspective", "realistic", "orthographic", "spherical"};
 constexpr std::string_view kIntegrators[] = {"path", "volpath"};
 
 /// Throws unless `kind` is one of `kinds`.
@@ -129,10 +129,20 @@ ApertureShape readShape(ParameterList& parameters, const SceneFiles& files) {
 }
 
 void readPerspective(PerspectiveCamera& camera, ParameterList& parameters, const SceneFiles& files) {
-    camera.fovDegrees = parameters.number("fov", 90, {0, 179.99, true});
+    if (camera.projection == Projection::perspective)
+        camera.fovDegrees = parameters.number("fov", 90, {0, 179.99, true});
     camera.lensRadius = parameters.number("lensradius", 0, kNonNegative);
     camera.focalDistance = parameters.number("focaldistance", 1e6f, kPositive);
     camera.aperture = readShape(parameters, files);
+}
+
+void readSpherical(PerspectiveCamera& camera, ParameterList& parameters) {
+    camera.projection =
+        parameters.choice("mapping", "equalarea", {"equalarea", "equirectangular"}) == "equalarea"
+            ? Projection::equalArea
+            : Projection::equirectangular;
+    // As in pbrt.
+    parameters.ignore({"lensradius", "focaldistance", "frameaspectratio", "screenwindow"});
 }
 
 RealisticCamera readRealistic(ParameterList& parameters, const SceneFiles& files, const std::string& path,
@@ -223,7 +233,10 @@ void OptionBlock::resolve(Scene& scene, const SceneFiles& files, Monitor& monito
             throw badInput(camera.parameters.position(), "Camera \"realistic\" needs \"string lensfile\"");
         scene.realistic = readRealistic(camera.parameters, files, files.resolve(*lens), monitor);
         scene.files.push_back(scene.realistic->lens.path);
+    } else if (camera.kind == "spherical") {
+        readSpherical(scene.camera, camera.parameters);
     } else {
+        if (camera.kind == "orthographic") scene.camera.projection = Projection::parallel;
         readPerspective(scene.camera, camera.parameters, files);
         readScreen(scene.camera, camera.parameters, scene.film);
     }

@@ -26,6 +26,7 @@ struct TraceJob {
     int firstSample, count;
     SampleSpans out;
     const SampleMotion& motion;
+    bool findsImages; ///< of mirrors and glass
 };
 
 class BlockTracer {
@@ -46,6 +47,7 @@ private:
     void generate(int sample);
     void shade(int sample);
     void finish(int lane);
+    float depthOf(int lane) const;
     void store(int lane, int sample);
 
     const TraceJob& job_;

@@ -11,6 +11,8 @@
 #include "trace/interaction.h"
 #include "trace/light_tree.h"
 
+#include <deque>
+
 namespace slant {
 
 /// Keeps pointers into the scene, which must live longer. Const calls may come from any thread.
@@ -53,6 +55,8 @@ private:
         float firstChance;
     };
     void addLight(const Scene& scene, const Light& light);
+    void addPointLight(const Scene& scene, const Light& light);
+    void addInfiniteLight(const Scene& scene, const Light& light);
     void addTree();
     /// Calls use(emitter, quadrics) with an emitter as it is at a time.
     template <typename Use>
@@ -74,6 +78,7 @@ private:
     std::vector<EmittingShape> shapes_;
     std::vector<Environment> infinite_;
     std::vector<Distant> distant_;
+    std::deque<PointProfile> profiles_; ///< of points
     LightTree tree_;
     std::vector<Leaf> leaves_; ///< as the tree numbers them
     std::vector<int> leafOf_;  ///< for each emitter; -1 = not sampled

@@ -94,7 +94,7 @@ TEST(SceneErrors, parameterLists) {
             {"\"float radius\" -1", ":2:16: 'radius' is -1, but must be above 0"},
             {"\"float zmin\" 3 \"float zmax\" 4",
              ":2:1: nothing is left of this sphere between zmin and zmax, 0 and phimax"},
-            {"\"texture alpha\" \"holes\"", ":2:16: 'alpha' is not supported"},
+            {"\"texture alpha\" \"holes\"", ":2:16: there is no float texture 'holes'"},
             {"\"float radius\" 1 \"unclosed", ":2:33: this string has no closing quote in its line"},
         },
         shape);
@@ -108,7 +108,7 @@ TEST(SceneErrors, shapes) {
     check(
         {
             {"\"spher\"", ":2:1: shape \"spher\" is not supported, did you mean 'sphere'?"},
-            {"\"cylinder\"", ":2:1: shape \"cylinder\" is not supported"},
+            {"\"cone\"", ":2:1: shape \"cone\" is not supported"},
             {"\"disk\" \"float innerradius\" 1",
              ":2:1: nothing is left of this disk between its radii, 0 and phimax"},
             {"\"trianglemesh\"", ":2:1: Shape \"trianglemesh\" needs \"point3 P\""},
@@ -177,7 +177,7 @@ TEST(SceneErrors, options) {
         {"Integrator \"path\" \"integer maxdpth\" 1 WorldBegin",
          ":1:19: Integrator \"path\" has no parameter 'maxdpth', or none that is supported, did you mean "
          "'maxdepth'?"},
-        {"Camera \"orthographic\" WorldBegin", ":1:1: camera \"orthographic\" is not supported"},
+        {"Camera \"environment\" WorldBegin", ":1:1: camera \"environment\" is not supported"},
         {"Camera \"perspective\" \"float fov\" 180 WorldBegin",
          ":1:22: 'fov' is 180, but must be above 0 and at most 179.99"},
         {"Camera \"perspective\" \"float lensradius\" -1 WorldBegin",
@@ -207,7 +207,7 @@ TEST(SceneErrors, materialsAndTextures) {
         {
             {"Material \"difuse\"", ":2:1: material \"difuse\" is not supported, did you mean 'diffuse'?"},
             {"Material \"\"", ":2:1: material \"\" is not supported"},
-            {"Material \"dielectric\"", ":2:1: material \"dielectric\" is not supported"},
+            {"Material \"hair\"", ":2:1: material \"hair\" is not supported"},
             {"Material \"diffuse\" \"rgb reflectance\" [1 1 2]",
              ":2:20: 'reflectance' is 2, but must be at least 0 and at most 1"},
             {"Material \"diffuse\" \"rgb reflectance\" [1 1 1 1 1 1]",
@@ -272,7 +272,7 @@ TEST(SceneErrors, materialsAndTextures) {
 TEST(SceneErrors, lights) {
     check(
         {
-            {"LightSource \"spot\"", ":2:1: light \"spot\" is not supported"},
+            {"LightSource \"laser\"", ":2:1: light \"laser\" is not supported"},
             {"LightSource \"pointt\"", ":2:1: light \"pointt\" is not supported, did you mean 'point'?"},
             {"LightSource \"point\" \"rgb L\" [1 1 1]", ":2:21: LightSource \"point\" has no parameter 'L', "
                                                         "or none that is supported, did you mean 'I'?"},
@@ -290,8 +290,10 @@ TEST(SceneErrors, lights) {
              ":2:24: an infinite light has either 'L' or 'filename'"},
             {"AreaLightSource \"difuse\"",
              ":2:1: area light \"difuse\" is not supported, did you mean 'diffuse'?"},
-            {"AreaLightSource \"diffuse\" \"string filename\" \"a.exr\"",
-             ":2:27: AreaLightSource \"diffuse\" has no parameter 'filename', or none that is supported"},
+            {"AreaLightSource \"diffuse\" \"string filename\" \"a.exr\" \"rgb L\" [1 1 1]",
+             ":2:52: an area light has either 'L' or 'filename'"},
+            {"LightSource \"spot\" \"point3 to\" [0 0 0]", ":2:1: a spot light needs 'from' and 'to' apart"},
+            {"LightSource \"projection\"", ":2:1: LightSource \"projection\" needs \"string filename\""},
         },
         "WorldBegin\n");
 }
