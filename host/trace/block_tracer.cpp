@@ -114,13 +114,12 @@ float BlockTracer::depthOf(int i) const {
     const std::size_t lane = std::size_t(i);
     const SurfaceHit& hit = hits_[lane];
     if (!job_.findsImages || !hit.hit() || !job_.shading.materials.mayBeSpecular(hit)) return hit.t;
-    const auto depth = job_.camera.visit([&](const auto& camera) {
+    return job_.camera.visit([&](const auto& camera) {
         const glm::dmat4 axes = camera.worldFromCamera().at(double(rays_[lane].time));
         const double radius = -double(camera.slopeModel().c1) / camera.pinholeFromCamera()[0].x;
         const LensAxes lens{glm::dvec3(axes[0]), -glm::dvec3(axes[1]), radius};
         return imageDepth(job_.geometry, job_.shading.materials, rays_[lane], hit, lens);
     });
-    return depth.value_or(hit.t);
 }
 
 void BlockTracer::store(int i, int sample) {

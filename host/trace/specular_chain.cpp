@@ -2,114 +2,156 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 namespace slant {
 namespace {
 
 /// Vertices after which a chain is cut: light that is trapped in glass.
 constexpr int kMaxLength = 16;
+/// How far away neighbouring rays leave the lens, in its radii: curved surfaces are to be seen as the lens
+/// sees them, not as if it were small.
+constexpr double kNeighbour = 0.5;
 /// Normals of neighbouring rays are nearer to one another than this cosine, or they met other things.
 constexpr float kSameSurface = 0.8f;
-/// How far away neighbouring rays leave the lens, in its radii: curved surfaces are to be seen as the lens sees them,
-/// not as if it were small.
-constexpr double kNeighbour = 0.5;
+/// An image must leave at most this part of what the one before it leaves of the rays' squared distances:
+/// behind a thick lens rays meet nowhere near one another.
+constexpr double kWorthIt = 0.5;
 /// No image is taken to lie nearer than this part of the depth of the first surface.
 constexpr double kNearestImage = 1.0 / 8;
 
-class SpecularChain {
+/// The ray that a specular surface sends on.
+Ray sentOn(const Ray& ray, const SurfaceHit& hit, glm::vec3 direction) {
+    return {offsetRayOrigin(hit.position, hit.positionError, hit.geometricNormal, direction), direction,
+            std::numeric_limits<float>::infinity(), ray.time};
+}
+
+/// A camera ray and its neighbours, on their way through a chain.
+class Bundle {
 public:
-    SpecularChain(const Geometry& geometry, const Materials& materials, const Ray& cameraRay,
-                  const SurfaceHit& hit)
-        : geometry_(geometry), materials_(materials) {
-        last_ = cameraRay;
-        end_ = hit;
-        while (count_ < kMaxLength && end_.hit()) {
-            const Bsdf bsdf = materials_.bsdf(end_, -glm::normalize(last_.direction));
-            if (!bsdf.specular()) break;
-            Vertex& vertex = vertices_[std::size_t(count_++)];
-            vertex = {end_.materialIndex, bsdf.mostlyReflects(), bsdf.normal()};
-            last_ = sentOn(last_, end_, bsdf.specularDirection(vertex.reflects));
-            geometry_.intersect(last_, end_);
+    Bundle(const Geometry& geometry, const Materials& materials, const Ray& cameraRay, const SurfaceHit& hit,
+           const LensAxes& axes)
+        : geometry_(geometry), materials_(materials), ray_(cameraRay), hit_(hit),
+          shift_(kNeighbour * axes.radius), turn_(shift_ / double(hit.t)) {
+        for (std::size_t i = 0; i < neighbours_.size(); ++i) {
+            Neighbour& n = neighbours_[i];
+            const glm::dvec3 step = (i & 1 ? -1.0 : 1.0) * (i & 2 ? axes.down : axes.right);
+            n.ray = cameraRay;
+            if (i & 4)
+                n.ray.direction = glm::vec3(glm::dvec3(n.ray.direction) + turn_ * step);
+            else
+                n.ray.origin = glm::vec3(glm::dvec3(n.ray.origin) + shift_ * step);
         }
     }
-    bool empty() const { return count_ == 0; }
 
-    /// Where a neighbouring camera ray passes the end of the chain, across the last ray; far away, in what
-    /// direction.
-    std::optional<glm::dvec2> displacement(Ray ray) const {
-        for (int i = 0; i < count_; ++i) {
-            const Vertex& vertex = vertices_[std::size_t(i)];
-            SurfaceHit hit;
-            if (!geometry_.intersect(ray, hit) || hit.materialIndex != vertex.materialIndex) return {};
-            const Bsdf bsdf = materials_.bsdf(hit, -glm::normalize(ray.direction));
-            if (!bsdf.specular() || glm::dot(bsdf.normal(), vertex.normal) < kSameSurface) return {};
-            const glm::vec3 next = bsdf.specularDirection(vertex.reflects);
-            if (next == glm::vec3(0)) return {};
-            ray = sentOn(ray, hit, next);
+    /// Through the surface that has been met to the next; false if it scatters.
+    bool advance() {
+        if (!hit_.hit()) return false;
+        const Bsdf bsdf = materials_.bsdf(hit_, -glm::normalize(ray_.direction));
+        if (!bsdf.specular()) return false;
+        for (Neighbour& n : neighbours_) n.follows = n.follows && follow(n.ray, bsdf);
+        ray_ = sentOn(ray_, hit_, bsdf.specularDirection(bsdf.mostlyReflects()));
+        geometry_.intersect(ray_, hit_);
+        return true;
+    }
+
+    /// 1 / w of the image of what has been met, if it explains the neighbours far better than `other` does.
+    std::optional<double> image(double other) const {
+        glm::dmat2 turned(0);
+        std::array<glm::dvec2, 4> shifted;
+        glm::ivec2 turnedSides(0), shiftedSides(0);
+        for (std::size_t i = 0; i < neighbours_.size(); ++i) {
+            if (!neighbours_[i].follows) continue;
+            const auto beside = displacement(neighbours_[i].ray);
+            if (!beside) return {};
+            const int axis = i & 2 ? 1 : 0;
+            const double sign = i & 1 ? -1 : 1;
+            if (i & 4) {
+                turned[axis] += *beside * (sign / turn_);
+                ++turnedSides[axis];
+            } else {
+                shifted[std::size_t(shiftedSides.x + shiftedSides.y)] = *beside * sign;
+                ++shiftedSides[axis];
+            }
         }
-        const glm::dvec3 along = glm::normalize(glm::dvec3(last_.direction));
+        if (glm::any(glm::equal(turnedSides, glm::ivec2(0))) ||
+            glm::any(glm::equal(shiftedSides, glm::ivec2(0))))
+            return {};
+        for (int axis = 0; axis < 2; ++axis) turned[axis] /= double(turnedSides[axis]);
+        const glm::dmat2 inverse = glm::inverse(turned);
+        // In units of the shift: 1 / w along the axis, nothing across it.
+        std::array<glm::dvec2, 4> ratios;
+        const int count = shiftedSides.x + shiftedSides.y;
+        glm::dvec2 sum(0);
+        for (int k = 0; k < count; ++k) {
+            const int axis = k < shiftedSides.x ? 0 : 1;
+            ratios[std::size_t(k)] = inverse * shifted[std::size_t(k)] / shift_;
+            sum[axis] += ratios[std::size_t(k)][axis] / double(shiftedSides[axis]);
+        }
+        const double mean = (sum.x + sum.y) / 2;
+        const auto left = [&](double inverseDepth) {
+            double squares = 0;
+            for (int k = 0; k < count; ++k) {
+                glm::dvec2 rest = ratios[std::size_t(k)];
+                rest[k < shiftedSides.x ? 0 : 1] -= inverseDepth;
+                squares += glm::dot(rest, rest);
+            }
+            return squares;
+        };
+        if (!(left(mean) <= kWorthIt * left(other))) return {};
+        return mean;
+    }
+
+private:
+    struct Neighbour { ///< bit 0: the other way, bit 1: downwards, bit 2: in another direction
+        Ray ray;
+        bool follows = true;
+    };
+    bool follow(Ray& ray, const Bsdf& surface) const {
+        SurfaceHit hit;
+        if (!geometry_.intersect(ray, hit) || hit.materialIndex != hit_.materialIndex) return false;
+        const Bsdf bsdf = materials_.bsdf(hit, -glm::normalize(ray.direction));
+        if (!bsdf.specular() || glm::dot(bsdf.normal(), surface.normal()) < kSameSurface) return false;
+        const glm::vec3 next = bsdf.specularDirection(surface.mostlyReflects());
+        ray = sentOn(ray, hit, next);
+        return next != glm::vec3(0);
+    }
+    /// Where a neighbour passes what has been met, across the ray; far away, in what direction.
+    std::optional<glm::dvec2> displacement(const Ray& neighbour) const {
+        const glm::dvec3 along = glm::normalize(glm::dvec3(ray_.direction));
         const Frame frame = Frame::around(glm::vec3(along));
-        glm::dvec3 d(ray.direction);
+        glm::dvec3 d(neighbour.direction);
         if (!(glm::dot(d, along) > 0)) return {};
         d /= glm::dot(d, along);
         glm::dvec3 beside = d - along;
-        if (end_.hit()) {
-            const glm::dvec3 way = glm::dvec3(end_.position) - glm::dvec3(ray.origin);
+        if (hit_.hit()) {
+            const glm::dvec3 way = glm::dvec3(hit_.position) - glm::dvec3(neighbour.origin);
             beside = glm::dot(way, along) * d - way;
         }
         return glm::dvec2(glm::dot(beside, glm::dvec3(frame.x)), glm::dot(beside, glm::dvec3(frame.y)));
     }
 
-private:
-    struct Vertex {
-        int materialIndex;
-        bool reflects;
-        glm::vec3 normal; ///< of shading, where the ray came from
-    };
-    static Ray sentOn(const Ray& ray, const SurfaceHit& hit, glm::vec3 direction) {
-        return {offsetRayOrigin(hit.position, hit.positionError, hit.geometricNormal, direction), direction,
-                std::numeric_limits<float>::infinity(), ray.time};
-    }
-
     const Geometry& geometry_;
     const Materials& materials_;
-    std::array<Vertex, kMaxLength> vertices_;
-    int count_ = 0;
-    Ray last_;
-    SurfaceHit end_;
+    Ray ray_;
+    SurfaceHit hit_;
+    double shift_, turn_;
+    std::array<Neighbour, 8> neighbours_;
 };
 
 } // namespace
 
-std::optional<float> imageDepth(const Geometry& geometry, const Materials& materials, const Ray& cameraRay,
-                                const SurfaceHit& hit, const LensAxes& axes) {
-    const SpecularChain chain(geometry, materials, cameraRay, hit);
-    if (chain.empty()) return {};
-    // A column of a matrix: the mean of both sides, or that on which the neighbour stays within the chain.
-    const auto column = [&](const glm::dvec3& axis, double onLens, double ofDirection) {
-        glm::dvec2 sum(0);
-        int sides = 0;
-        for (const double sign : {1.0, -1.0}) {
-            Ray ray = cameraRay;
-            ray.origin = glm::vec3(glm::dvec3(ray.origin) + sign * onLens * axis);
-            ray.direction = glm::vec3(glm::dvec3(ray.direction) + sign * ofDirection * axis);
-            if (const auto moved = chain.displacement(ray)) {
-                sum += *moved * (sign / (onLens + ofDirection));
-                ++sides;
-            }
-        }
-        return sides > 0 ? std::optional(sum / double(sides)) : std::nullopt;
-    };
-    const double shift = kNeighbour * axes.radius, turn = shift / double(hit.t);
-    const auto a0 = column(axes.right, shift, 0), a1 = column(axes.down, shift, 0);
-    const auto b0 = column(axes.right, 0, turn), b1 = column(axes.down, 0, turn);
-    if (!a0 || !a1 || !b0 || !b1) return {};
-    // Half of the trace of the inverse of B times A.
-    const double determinant = b0->x * b1->y - b1->x * b0->y;
-    const double trace = a0->x * b1->y - a0->y * b1->x + a1->y * b0->x - a1->x * b0->y;
-    const double inverse = trace / (2 * determinant);
-    if (!std::isfinite(inverse)) return {};
-    return 1 / float(std::clamp(inverse, 0.0, 1 / (kNearestImage * double(hit.t))));
+float imageDepth(const Geometry& geometry, const Materials& materials, const Ray& cameraRay,
+                 const SurfaceHit& hit, const LensAxes& axes) {
+    Bundle bundle(geometry, materials, cameraRay, hit, axes);
+    const double surface = 1 / double(hit.t);
+    double inverse = surface;
+    for (int i = 0; i < kMaxLength && bundle.advance(); ++i) {
+        const auto image = bundle.image(inverse);
+        if (!image) break;
+        inverse = *image;
+    }
+    return inverse == surface ? hit.t : 1 / float(std::clamp(inverse, 0.0, surface / kNearestImage));
 }
 
 } // namespace slant

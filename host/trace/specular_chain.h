@@ -12,8 +12,6 @@
 #include "trace/geometry.h"
 #include "trace/materials.h"
 
-#include <optional>
-
 namespace slant {
 
 /// The camera as neighbouring rays need it.
@@ -23,8 +21,9 @@ struct LensAxes {
 };
 
 /// The depth of the image that `cameraRay` sees where it meets `hit`, infinity for one that is far away or
-/// beyond. Nothing if the surface there scatters, or if neighbouring rays leave the chain.
-std::optional<float> imageDepth(const Geometry& geometry, const Materials& materials, const Ray& cameraRay,
-                                const SurfaceHit& hit, const LensAxes& axes);
+/// beyond; that of the surface if it scatters. The chain ends where neighbouring rays leave it, or don't meet
+/// again.
+float imageDepth(const Geometry& geometry, const Materials& materials, const Ray& cameraRay,
+                 const SurfaceHit& hit, const LensAxes& axes);
 
 } // namespace slant
