@@ -84,6 +84,12 @@ void readDistant(Light& light, ParameterList& parameters) {
 void readInfinite(Light& light, ParameterList& parameters, const Scene& scene, SceneFiles& files) {
     light.kind = LightKind::infinite;
     light.illuminance = positive(parameters, "illuminance");
+    if (const std::vector<glm::vec3> portal = parameters.triples("portal", "point3"); !portal.empty()) {
+        if (portal.size() != 4)
+            throw badInput(parameters.positionOf("portal"), "'portal' needs four corners, not {}",
+                           portal.size());
+        light.portal = {portal[0], portal[1], portal[2], portal[3]};
+    }
     const std::optional<std::string> filename = parameters.text("filename");
     if (!filename) {
         light.emission = emission(parameters, "L");

@@ -218,6 +218,7 @@ struct Light {
     float coneDegrees = 30, coneDeltaDegrees = 5; ///< spot: half its angle, and the part of it that fades
     float fovDegrees = 90;                        ///< projection: of the shorter axis
     int imageIndex = -1; ///< infinite, goniometric: equal-area octahedral square image; -1: constant
+    std::optional<std::array<glm::vec3, 4>> portal; ///< infinite: corners of its opening, world space
     FileLocation location;
 };
 

@@ -31,7 +31,6 @@ glm::vec3 quotient(glm::vec3 a, glm::vec3 b) {
 SurfaceHit seenAt(float depth, const SurfaceHit& hit, const Ray& ray) {
     if (depth == hit.t || hit.mover >= 0) return hit;
     SurfaceHit image;
-    if (std::isinf(depth)) return image;
     image.materialIndex = hit.materialIndex;
     image.position = ray.origin + depth * ray.direction;
     return image;

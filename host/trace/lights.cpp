@@ -145,6 +145,11 @@ void Lights::addPointLight(const Scene& scene, const Light& light) {
 }
 
 void Lights::addInfiniteLight(const Scene& scene, const Light& light) {
+    portals_.emplace_back();
+    if (light.portal) {
+        portals_.back().emplace(*light.portal, light.location);
+        complete_ = false;
+    }
     if (light.imageIndex < 0) {
         infinite_.emplace_back(light.emission * light.scale *
                                (light.illuminance ? *light.illuminance / kPi : 1.f));
@@ -294,9 +299,12 @@ bool Lights::sample(const Receiver& receiver, float choice, glm::vec2 u, LightSa
     std::size_t option = std::size_t(chosen);
     if (option < infinite_.size()) {
         const Environment& environment = infinite_[option];
-        glm::vec3 direction = environment.sample(receiver.normal, choice, u);
-        float pdf = chance * environment.pdf(receiver.normal, direction);
-        sample = {direction, kInfinity, environment.radiance(direction), pdf, false, true};
+        const auto& portal = portals_[option];
+        glm::vec3 direction =
+            portal ? portal->sample(receiver.position, u) : environment.sample(receiver.normal, choice, u);
+        float pdf = chance * (portal ? portal->pdf(receiver.position, direction)
+                                     : environment.pdf(receiver.normal, direction));
+        sample = {direction, kInfinity, environment.radiance(direction), pdf, false, !portal};
         return pdf > 0;
     }
     if (option < infinite_.size() + distant_.size()) {
@@ -331,7 +339,8 @@ float Lights::pdf(const Receiver& receiver, const SurfaceHit& hit, glm::vec3 dir
 }
 
 float Lights::infinitePdf(const Receiver& receiver, std::size_t i, glm::vec3 direction) const {
-    return optionChance(i, receiver) * infinite_[i].pdf(receiver.normal, direction);
+    return optionChance(i, receiver) * (portals_[i] ? portals_[i]->pdf(receiver.position, direction)
+                                                    : infinite_[i].pdf(receiver.normal, direction));
 }
 
 } // namespace slant

@@ -10,8 +10,10 @@
 #include "trace/environment.h"
 #include "trace/interaction.h"
 #include "trace/light_tree.h"
+#include "trace/portal.h"
 
 #include <deque>
+#include <optional>
 
 namespace slant {
 
@@ -41,6 +43,13 @@ public:
 
     std::size_t infiniteCount() const { return infinite_.size(); }
     const Environment& infinite(std::size_t i) const { return infinite_[i]; }
+    /// Radiance of infinite light i that arrives at `position` along `direction` (unit, towards the light).
+    glm::vec3 infiniteRadiance(std::size_t i, glm::vec3 position, glm::vec3 direction) const {
+        if (portals_[i] && !portals_[i]->shows(position, direction)) return glm::vec3(0);
+        return infinite_[i].radiance(direction);
+    }
+    /// Whether estimates of infinite light i are bounded.
+    bool infiniteBounded(std::size_t i) const { return !portals_[i]; }
     /// Density with which sample() returns `direction` as one of infinite light i.
     float infinitePdf(const Receiver& receiver, std::size_t i, glm::vec3 direction) const;
 
@@ -77,6 +86,7 @@ private:
     std::vector<EmitterMotion> motions_;
     std::vector<EmittingShape> shapes_;
     std::vector<Environment> infinite_;
+    std::vector<std::optional<Portal>> portals_; ///< of infinite lights
     std::vector<Distant> distant_;
     std::deque<PointProfile> profiles_; ///< of points
     LightTree tree_;

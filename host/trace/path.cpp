@@ -41,13 +41,13 @@ void addEmission(const Lights& lights, const SurfaceHit& hit, glm::vec3 wo, Path
         state.add(state.throughput * emitted * weight);
         return;
     }
-    if (state.origin == PathState::Origin::diffuse) return;
     for (std::size_t i = 0; i < lights.infiniteCount(); ++i) {
+        if (state.origin == PathState::Origin::diffuse && lights.infiniteBounded(i)) continue;
         float weight = 1;
-        if (state.origin == PathState::Origin::glossy)
+        if (state.origin != PathState::Origin::camera)
             weight =
                 powerHeuristic(state.pdf, state.lightChance * lights.infinitePdf(state.receiver, i, -wo));
-        state.add(state.throughput * lights.infinite(i).radiance(-wo) * weight);
+        state.add(state.throughput * lights.infiniteRadiance(i, state.ray.origin, -wo) * weight);
     }
 }
 

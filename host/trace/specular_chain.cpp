@@ -17,8 +17,8 @@ constexpr float kSameSurface = 0.8f;
 /// An image must leave at most this part of what the one before it leaves of the rays' squared distances:
 /// behind a thick lens rays meet nowhere near one another.
 constexpr double kWorthIt = 0.5;
-/// No image is taken to lie nearer than this part of the depth of the first surface.
-constexpr double kNearestImage = 1.0 / 8;
+/// Images are taken to lie between these multiples of the depth of the first surface.
+constexpr double kNearestImage = 1.0 / 8, kFarthestImage = 256;
 
 /// The ray that a specular surface sends on.
 Ray sentOn(const Ray& ray, const SurfaceHit& hit, glm::vec3 direction) {
@@ -151,7 +151,9 @@ float imageDepth(const Geometry& geometry, const Materials& materials, const Ray
         if (!image) break;
         inverse = *image;
     }
-    return inverse == surface ? hit.t : 1 / float(std::clamp(inverse, 0.0, surface / kNearestImage));
+    return inverse == surface
+               ? hit.t
+               : 1 / float(std::clamp(inverse, surface / kFarthestImage, surface / kNearestImage));
 }
 
 } // namespace slant

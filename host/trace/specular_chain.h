@@ -20,9 +20,9 @@ struct LensAxes {
     double radius;          ///< in camera space, above 0
 };
 
-/// The depth of the image that `cameraRay` sees where it meets `hit`, infinity for one that is far away or
-/// beyond; that of the surface if it scatters. The chain ends where neighbouring rays leave it, or don't meet
-/// again.
+/// The depth of the image that `cameraRay` sees where it meets `hit`, at most some hundred times that of
+/// `hit`; that of `hit` if the surface scatters. The chain ends where neighbouring rays leave it, or don't
+/// meet again.
 float imageDepth(const Geometry& geometry, const Materials& materials, const Ray& cameraRay,
                  const SurfaceHit& hit, const LensAxes& axes);
 

