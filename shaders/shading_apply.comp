@@ -9,11 +9,12 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform utextureBuffer samples; // of each record
 layout(set = 0, binding = 1) uniform utextureBuffer surfelOfRecord;
 layout(set = 0, binding = 2) uniform textureBuffer illumination; // of each sample
-layout(set = 0, binding = 3) uniform textureBuffer reflectance;
-layout(set = 0, binding = 4) uniform textureBuffer reflection;
-layout(set = 0, binding = 5) uniform textureBuffer means; // of each surfel, part after part
-layout(set = 0, binding = 6) uniform textureBuffer changes;
-layout(set = 0, binding = 7, rgba32f) uniform imageBuffer values;
+layout(set = 0, binding = 3) uniform textureBuffer softened;     // illumination with soft shadows
+layout(set = 0, binding = 4) uniform textureBuffer reflectance;
+layout(set = 0, binding = 5) uniform textureBuffer reflection;
+layout(set = 0, binding = 6) uniform textureBuffer means; // of each surfel, part after part
+layout(set = 0, binding = 7) uniform textureBuffer changes;
+layout(set = 0, binding = 8, rgba32f) uniform imageBuffer values;
 layout(push_constant) uniform Push {
     ShadedPush push;
 };
@@ -27,8 +28,10 @@ void main() {
     const int sample_ = int(texelFetch(samples, int(record)).x), parts = kReflects ? 2 : 1;
     const int i = int(surfel) * parts;
     vec3 light = texelFetch(illumination, sample_).rgb;
-    vec3 change = texelFetch(reflectance, sample_).rgb *
-                  (filteredLight(light, texelFetch(means, i), texelFetch(changes, i)) - light);
+    vec3 change =
+        texelFetch(reflectance, sample_).rgb *
+        (filteredLight(texelFetch(softened, sample_).rgb, texelFetch(means, i), texelFetch(changes, i)) -
+         light);
     if (kReflects) {
         light = texelFetch(reflection, sample_).rgb;
         change += filteredLight(light, texelFetch(means, i + 1), texelFetch(changes, i + 1)) - light;

@@ -34,9 +34,14 @@ public:
     Error(ErrorCode code, const FileLocation& location, const std::string& message);
 
     ErrorCode code() const { return code_; }
+    /// Where it is; empty if the error has no place.
+    const FileLocation& location() const { return location_; }
+    /// what() without the place.
+    std::string message() const;
 
 private:
     ErrorCode code_;
+    FileLocation location_;
 };
 
 /// throw badInput("{} is not a number", word) with the place where it stands.

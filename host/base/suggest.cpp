@@ -33,8 +33,9 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
 } // namespace
 
 std::string closestName(std::string_view word, std::span<const std::string_view> candidates) {
-    // None of our names is nearly this long, and the distance takes quadratic time.
-    if (word.size() > 100) return {};
+    // None of our names is nearly this long, and the distance takes quadratic time. One letter is like any
+    // other.
+    if (word.size() > 100 || word.size() < 2) return {};
     const std::string wanted = lowerCase(word);
     std::size_t best = std::max<std::size_t>(1, word.size() / 3) + 1;
     std::string name;

@@ -8,7 +8,8 @@
 namespace slant {
 
 /// The candidate with the fewest edits (insert, delete, replace, swap neighbours; Damerau 1964) from `word`,
-/// letter case aside; empty if none is within a third of the word's length (at least one edit).
+/// letter case aside; empty if none is within a third of the word's length (at least one edit), or if it is
+/// one letter.
 std::string closestName(std::string_view word, std::span<const std::string_view> candidates);
 
 /// ", did you mean 'NAME'?" for the end of a message, or nothing. `names` is any range of strings.

@@ -36,16 +36,22 @@ private:
     glm::dvec2 radial_;
 };
 
+/// From the film to the plane in focus, in metres.
+double focusDistance(const RealisticCamera& camera, const LensSystem& lens) {
+    if (!camera.filmDistanceMm) return camera.focusDistance;
+    return lens.focusDistance(*camera.filmDistanceMm, camera.focusLocation) / kMillimetres;
+}
+
 } // namespace
 
 CompoundLens::CompoundLens(const RealisticCamera& camera, const MovingTransform& worldFromCamera,
                            const Film& film)
     : lens_(camera.lens, camera.apertureDiameterMm),
-      filmZ_(lens_.filmPosition(camera.focusDistance * kMillimetres, camera.focusLocation)),
+      filmZ_(lens_.filmPosition(focusDistance(camera, lens_) * kMillimetres, camera.focusLocation)),
       mmPerPixel_(double(film.diagonalMm) / std::hypot(film.xResolution, film.yResolution)),
       pupil_(lens_, filmZ_, kFilmReach * double(film.diagonalMm) / 2), aperture_(camera.aperture),
       depthOrigin_(std::clamp(lens_.entrancePupil().z, filmZ_, lens_.frontVertex())),
-      focusDepth_(camera.focusDistance - (depthOrigin_ - filmZ_) / kMillimetres),
+      focusDepth_(focusDistance(camera, lens_) - (depthOrigin_ - filmZ_) / kMillimetres),
       filmCentre_(film.xResolution / 2.0, film.yResolution / 2.0), worldFromCamera_(worldFromCamera),
       axes_(axesOf(worldFromCamera.at[0])) {
     if (!(pupil_.radius() > 0))

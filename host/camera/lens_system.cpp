@@ -201,4 +201,14 @@ double LensSystem::filmPosition(double focusDistanceMm, const FileLocation& wher
     return film;
 }
 
+double LensSystem::focusDistance(double filmDistanceMm, const FileLocation& where) const {
+    const double imageDistance = rearPrincipal() - (surfaces_.back().vertex - filmDistanceMm);
+    if (!(imageDistance > focalLength_))
+        throw badInput(
+            where, "nothing is in focus on a film {:.6g} mm behind this lens: it must be more than {:.6g} mm",
+            filmDistanceMm, surfaces_.back().vertex - rearFocus());
+    const double objectDistance = imageDistance * focalLength_ / (imageDistance - focalLength_);
+    return objectDistance + imageDistance + frontPrincipal() - rearPrincipal();
+}
+
 } // namespace slant

@@ -76,6 +76,9 @@ public:
     /// and the focal length (as pbrt's thick-lens method). Throws Error(badInput) at `where` if there is no
     /// such place behind the rear surface, or if that plane lies within the lens.
     double filmPosition(double focusDistanceMm, const FileLocation& where) const;
+    /// The inverse: the distance in focus for a film behind the rear surface. Throws Error(badInput) at
+    /// `where` if nothing in front of the lens is.
+    double focusDistance(double filmDistanceMm, const FileLocation& where) const;
 
 private:
     struct Surface {

@@ -7,6 +7,7 @@
 #include "base/suggest.h"
 #include "commands/commands.h"
 #include "commands/options.h"
+#include "commands/picture_job.h"
 #include "commands/stats_file.h"
 #include "commands/terminal_monitor.h"
 #include "reconstruct/output_pattern.h"
@@ -199,7 +200,8 @@ void addChart(CLI::App& program) {
         program.add_subcommand("chart", "Measure and draw speed against error, methods beside brute force");
     const auto options = std::make_shared<ChartOptions>();
     SweepOptions& sweep = options->sweep;
-    command->add_option("SCENES", sweep.scenes, "pbrt-v4 scene files")->required()->type_name("");
+    command->add_option("SCENES", sweep.scenes, "pbrt scene files")->required()->type_name("");
+    addLenientOption(*command, sweep.reading);
     command->add_option("-o,--output", options->directory, "directory to write to")
         ->required()
         ->type_name("DIR");

@@ -13,6 +13,7 @@ using AddCommand = void (*)(CLI::App& program);
 void addRender(CLI::App& program);
 void addReference(CLI::App& program);
 void addSample(CLI::App& program);
+void addCheck(CLI::App& program);
 void addReconstruct(CLI::App& program);
 void addInfo(CLI::App& program);
 void addDiff(CLI::App& program);
@@ -22,6 +23,7 @@ void addDevices(CLI::App& program);
 
 /// In the order in which `slant --help` lists them.
 inline constexpr std::initializer_list<AddCommand> kCommands = {
-    addRender, addReference, addSample, addReconstruct, addInfo, addDiff, addChart, addLens, addDevices};
+    addRender, addReference, addSample, addReconstruct, addInfo,
+    addCheck,  addDiff,      addChart,  addLens,        addDevices};
 
 } // namespace slant::commands

@@ -5,6 +5,7 @@
 #include "camera/slope_residual.h"
 #include "commands/commands.h"
 #include "commands/options.h"
+#include "commands/picture_job.h"
 #include "commands/terminal_monitor.h"
 #include "scene/lens_file.h"
 #include "scene/read_scene.h"
@@ -26,6 +27,7 @@ constexpr double kImageCircleShare = 0.9;
 
 struct LensOptions {
     std::string file, svg;
+    ReadOptions reading;
     std::optional<double> apertureMm, focusDistance, diagonalMm;
     double tolerancePx = kSlopeTolerancePx;
 };
@@ -52,7 +54,7 @@ Subject fromScene(const LensOptions& options) {
                     "--aperture, --focus-distance and --diagonal are for lens files; a scene "
                     "has its own");
     TerminalMonitor monitor(TerminalMonitor::styleOfStderr(true));
-    Scene scene = readScene(options.file, monitor);
+    Scene scene = readScene(options.file, monitor, options.reading);
     if (!scene.realistic)
         throw badInput({options.file}, "the camera of this scene is not \"realistic\": it has no lens");
     scene.realistic->aperture = {}; // figures and drawing are for the round stop
@@ -171,6 +173,7 @@ void addLens(CLI::App& program) {
     command->add_option("FILE", options->file, "lens file, or scene with a \"realistic\" camera")
         ->required()
         ->type_name("");
+    addLenientOption(*command, options->reading);
     addNumber<double>(*command, "--aperture", options->apertureMm, 1e-3, 1e6,
                       "diameter of the stop in mm (default: f/2.8, or the widest)");
     addNumber<double>(*command, "--focus-distance", options->focusDistance, 1e-3, 1e9,

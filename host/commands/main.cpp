@@ -5,6 +5,7 @@
 #include "commands/commands.h"
 #include "commands/interrupt.h"
 #include "commands/terminal_monitor.h"
+#include "scene/issues.h"
 #include "version.h"
 
 #include <cstdio>
@@ -78,6 +79,9 @@ int main(int argc, char** argv) {
         program.require_subcommand(1);
         for (const auto add : commands::kCommands) add(program);
         return run(program, argc, argv);
+    } catch (const InvalidScene& error) {
+        for (const std::string& line : error.lines()) fail(error.code(), line);
+        return int(error.code());
     } catch (const Error& error) {
         return fail(error.code(), error.what());
     } catch (const std::bad_alloc&) {

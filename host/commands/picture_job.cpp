@@ -3,7 +3,6 @@
 #include "base/atomic_file.h"
 #include "commands/stats_file.h"
 #include "image/png.h"
-#include "scene/read_scene.h"
 
 #include <filesystem>
 
@@ -29,8 +28,14 @@ Metadata metadataOf(const nlohmann::ordered_json& details, const std::vector<Sta
 
 } // namespace
 
-void addSceneOption(CLI::App& command, std::string& scene) {
-    command.add_option("SCENE", scene, "pbrt-v4 scene file")->required()->type_name("");
+void addLenientOption(CLI::App& command, ReadOptions& reading) {
+    command.add_flag("--lenient", reading.lenient,
+                     "put stand-ins where the scene has what is not supported, and say which");
+}
+
+void addSceneOptions(CLI::App& command, std::string& scene, ReadOptions& reading) {
+    command.add_option("SCENE", scene, "pbrt scene file")->required()->type_name("");
+    addLenientOption(command, reading);
 }
 
 void addImageOptions(CLI::App& command, PictureOptions& options) {
@@ -45,7 +50,7 @@ void addImageOptions(CLI::App& command, PictureOptions& options) {
 }
 
 void addPictureOptions(CLI::App& command, PictureOptions& options) {
-    addSceneOption(command, options.input);
+    addSceneOptions(command, options.input, options.reading);
     command.add_option("-o,--output", options.output, "picture to write (default: the film's filename)")
         ->type_name("FILE.exr");
     addImageOptions(command, options);
@@ -63,8 +68,9 @@ void checkOutputs(const PictureOptions& options) {
         if (!path.empty()) checkWritable(path);
 }
 
-Scene readSceneFor(const std::string& path, const CommonOptions& options, Monitor& monitor) {
-    Scene scene = readScene(path, monitor);
+Scene readSceneFor(const std::string& path, const ReadOptions& reading, const CommonOptions& options,
+                   Monitor& monitor) {
+    Scene scene = readScene(path, monitor, reading);
     if (options.spp) scene.pixelSamples = *options.spp;
     if (const auto& crop = options.crop) {
         scene.film.crop = crop->intersect({0, 0, scene.film.xResolution, scene.film.yResolution});

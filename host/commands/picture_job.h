@@ -5,7 +5,7 @@
 #include "commands/terminal_monitor.h"
 #include "image/exr.h"
 #include "lightfield/lightfield.h"
-#include "scene/scene.h"
+#include "scene/read_scene.h"
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -14,6 +14,7 @@ namespace slant::commands {
 
 struct PictureOptions {
     CommonOptions common;
+    ReadOptions reading;
     std::string input; ///< scene or light field
     std::string output;
     std::string png;    ///< empty: none
@@ -22,11 +23,13 @@ struct PictureOptions {
     bool auxiliary = false; ///< with further channels: render/auxiliary.h
 };
 
-/// SCENE
-void addSceneOption(CLI::App& command, std::string& scene);
+/// --lenient
+void addLenientOption(CLI::App& command, ReadOptions& reading);
+/// SCENE and --lenient
+void addSceneOptions(CLI::App& command, std::string& scene, ReadOptions& reading);
 /// --png, --exposure, --float, --auxiliary
 void addImageOptions(CLI::App& command, PictureOptions& options);
-/// SCENE, -o, those of addImageOptions, and the common options except those of the reconstruction.
+/// SCENE, --lenient, -o, those of addImageOptions, and the common options except those of the reconstruction.
 void addPictureOptions(CLI::App& command, PictureOptions& options);
 
 /// The file that --debug-image layer-map writes.
@@ -35,7 +38,8 @@ std::string mapSharePath(const PictureOptions& options);
 void checkOutputs(const PictureOptions& options);
 
 /// Reads the scene and applies --crop and --spp.
-Scene readSceneFor(const std::string& path, const CommonOptions& options, Monitor& monitor);
+Scene readSceneFor(const std::string& path, const ReadOptions& reading, const CommonOptions& options,
+                   Monitor& monitor);
 
 /// Reports which samples were bad and how many pixels are black because no sample reached them.
 void warnOf(const FieldDefects& defects, std::uint64_t emptyPixels, Monitor& monitor);

@@ -14,7 +14,7 @@ void runReference(PictureOptions options) {
     const Stopwatch watch;
     const ThreadLimit threads(options.common.threads);
     TerminalMonitor monitor(TerminalMonitor::styleOfStderr(options.common.quiet));
-    const Scene scene = readSceneFor(options.input, options.common, monitor);
+    const Scene scene = readSceneFor(options.input, options.reading, options.common, monitor);
     if (options.output.empty()) options.output = scene.film.filename;
     checkOutputs(options);
     // Slopes don't count here, and depths for auxiliary channels alone.

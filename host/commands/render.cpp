@@ -23,7 +23,7 @@ void runRender(RenderCommand options) {
     const ThreadLimit threads(common.threads);
     TerminalMonitor monitor(TerminalMonitor::styleOfStderr(common.quiet));
     Backend backend(common.device, common.threads);
-    const Scene scene = readSceneFor(options.picture.input, common, monitor);
+    const Scene scene = readSceneFor(options.picture.input, options.picture.reading, common, monitor);
     if (options.picture.output.empty()) options.picture.output = scene.film.filename;
     checkOutputs(options.picture);
 

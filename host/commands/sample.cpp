@@ -15,6 +15,7 @@ namespace {
 
 struct FieldOptions {
     CommonOptions common;
+    ReadOptions reading;
     std::string scene, output;
     bool auxiliary = false, shading = false;
 };
@@ -35,12 +36,14 @@ void runSample(const FieldOptions& options) {
     const ThreadLimit threads(common.threads);
     TerminalMonitor monitor(TerminalMonitor::styleOfStderr(common.quiet));
     checkOptions(options);
-    const Scene scene = readSceneFor(options.scene, common, monitor);
+    const Scene scene = readSceneFor(options.scene, options.reading, common, monitor);
     const Tracer tracer(scene, monitor, common.slopes);
     SampleOptions sampling;
     sampling.samplesPerPixel = scene.pixelSamples;
     sampling.seed = common.seed;
-    sampling.planes = {.albedo = options.auxiliary, .shading = options.shading};
+    sampling.planes = {.albedo = options.auxiliary,
+                       .shading = options.shading,
+                       .shadows = options.shading && hasSoftShadows(scene)};
     MotionMisses misses;
     const LightField field = traceLightField(tracer, scene, sampling, monitor, &misses);
 
@@ -60,7 +63,7 @@ void runSample(const FieldOptions& options) {
 void addSample(CLI::App& program) {
     CLI::App* command = program.add_subcommand("sample", "Trace a light field into a file");
     const auto options = std::make_shared<FieldOptions>();
-    addSceneOption(*command, options->scene);
+    addSceneOptions(*command, options->scene, options->reading);
     command
         ->add_option("-o,--output", options->output,
                      "light field to write: deep OpenEXR (.exr) or TLFR "

@@ -38,7 +38,7 @@ void DeviceFieldBins::takeValues(CommandList& commands, ValuePlane plane) {
 }
 
 void DeviceFieldBins::filterShading(CommandList& commands, const ShadingPlan& plan) {
-    const ShadingPasses passes(device_, samples_, plan.reflects);
+    const ShadingPasses passes(device_, samples_, plan);
     for (const ShadingBand& band : plan.bands) passes.run(commands, bins_, band);
 }
 

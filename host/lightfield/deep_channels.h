@@ -43,7 +43,7 @@ constexpr DeepPlane deepPlane(const char* x, const char* y, const char* z,
 /// There together with albedo, with shading, or with both.
 inline constexpr DeepPlane kNormalPlane = deepPlane("N.X", "N.Y", "N.Z", &SampleSet::normal);
 
-inline constexpr std::array<DeepPlane, 7> kDeepPlanes = {
+inline constexpr std::array<DeepPlane, 11> kDeepPlanes = {
     deepPlane("R", "G", "B", &SampleSet::radiance),
     deepPlane("albedo.R", "albedo.G", "albedo.B", &SampleSet::albedo, &SamplePlanes::albedo),
     kNormalPlane,
@@ -52,6 +52,10 @@ inline constexpr std::array<DeepPlane, 7> kDeepPlanes = {
     deepPlane("reflectance.R", "reflectance.G", "reflectance.B", &SampleSet::reflectance,
               &SamplePlanes::shading),
     deepPlane("reflection.R", "reflection.G", "reflection.B", &SampleSet::reflection, &SamplePlanes::shading),
+    deepPlane("P.X", "P.Y", "P.Z", &SampleSet::position, &SamplePlanes::shadows, true),
+    deepPlane("light.X", "light.Y", "light.Z", &SampleSet::light, &SamplePlanes::shadows, true),
+    deepPlane("blocker.X", "blocker.Y", "blocker.Z", &SampleSet::blocker, &SamplePlanes::shadows, true),
+    deepPlane("direct.R", "direct.G", "direct.B", &SampleSet::direct, &SamplePlanes::shadows),
     deepPlane("motion.x", "motion.y", "motion.w", &SampleSet::motion, &SamplePlanes::motion, true)};
 
 } // namespace slant

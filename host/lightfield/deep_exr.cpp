@@ -180,6 +180,7 @@ SamplePlanes planesIn(const Imf::Header& header) {
     SamplePlanes planes;
     for (const DeepPlane& plane : kDeepPlanes)
         if (plane.group && hasAny(header, plane)) planes.*plane.group = true;
+    if (planes.shadows) planes.shading = true; // whose illumination they are rays of
     if (!planes.shading && hasAny(header, kNormalPlane)) planes.albedo = true; // normals need one of them
     return planes;
 }

@@ -52,11 +52,12 @@ void SampleSet::resize(std::size_t count, SamplePlanes planes) {
     normal.resize(planes.albedo || planes.shading ? count : 0);
     motion.resize(planes.motion ? count : 0);
     for (auto* plane : {&illumination, &reflectance, &reflection}) plane->resize(planes.shading ? count : 0);
+    for (auto* plane : {&position, &light, &blocker, &direct}) plane->resize(planes.shadows ? count : 0);
 }
 
 SampleSpans spansOf(SampleSet& set) {
-    return {set.samples, set.radiance,     set.albedo,      set.normal,
-            set.motion,  set.illumination, set.reflectance, set.reflection};
+    return {set.samples,     set.radiance,   set.albedo,   set.normal, set.motion,  set.illumination,
+            set.reflectance, set.reflection, set.position, set.light,  set.blocker, set.direct};
 }
 
 void dropZeroMotion(LightField& field) {
@@ -138,12 +139,10 @@ void checkPlanes(const LightField& field) {
     expected.resize(1, field.planes());
     for (const auto plane : kValuePlanes)
         if ((field.*plane).size() != field.samples.size() * (expected.*plane).size())
-            throw Error(ErrorCode::usage,
-                        fmt::format("{} samples have {} radiances, {} albedos, {} normals, {} motions, {} "
-                                    "illuminations, {} reflectances and {} reflections",
-                                    field.samples.size(), field.radiance.size(), field.albedo.size(),
-                                    field.normal.size(), field.motion.size(), field.illumination.size(),
-                                    field.reflectance.size(), field.reflection.size()));
+            throw Error(ErrorCode::usage, fmt::format("a plane of values has {} of {} samples",
+                                                      (field.*plane).size(), field.samples.size()));
+    if (field.planes().shadows && !field.hasShading())
+        throw Error(ErrorCode::usage, "shadow rays without illumination");
 }
 
 } // namespace
@@ -161,6 +160,8 @@ FieldDefects sanitize(LightField& field) {
             bool unused = false;
             for (glm::vec3* value : {&field.illumination[i], &field.reflectance[i], &field.reflection[i]})
                 for (int c = 0; c < 3; ++c) repairComponent((*value)[c], unused, unused);
+            if (!field.hasShadows()) continue;
+            for (int c = 0; c < 3; ++c) repairComponent(field.direct[i][c], unused, unused);
         }
         const std::lock_guard lock(mutex);
         sum.add(local);

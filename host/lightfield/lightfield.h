@@ -53,6 +53,7 @@ inline glm::vec3 relativeMotion(const LightFieldSample& sample, glm::vec3 m) {
 struct SamplePlanes {
     bool albedo = false;  ///< and normals
     bool shading = false; ///< normals, illumination, reflectance and reflection
+    bool shadows = false; ///< besides shading: position, light, blocker and direct
     bool motion = false;
 };
 
@@ -69,24 +70,33 @@ struct SampleSet {
     std::vector<glm::vec3> illumination; ///< of the diffuse part; empty together with the next two
     std::vector<glm::vec3> reflectance;  ///< of the diffuse part
     std::vector<glm::vec3> reflection;
+    // The ray from what was seen to a light, in world space; all at `position` where there was none.
+    std::vector<glm::vec3> position; ///< of what was seen; empty together with the next three
+    std::vector<glm::vec3> light;    ///< the place on the light; far away for a light without one
+    std::vector<glm::vec3> blocker;  ///< where something is in the way, nearest to `position`; else = light
+    std::vector<glm::vec3> direct;   ///< what the light adds to the illumination with nothing in the way
 
-    SamplePlanes planes() const { return {!albedo.empty(), !illumination.empty(), !motion.empty()}; }
+    SamplePlanes planes() const {
+        return {!albedo.empty(), !illumination.empty(), !position.empty(), !motion.empty()};
+    }
     bool hasGuides() const { return !albedo.empty(); }
     bool hasShading() const { return !illumination.empty(); }
+    bool hasShadows() const { return hasShading() && !position.empty(); }
     bool moves() const { return !motion.empty(); }
     void resize(std::size_t count, SamplePlanes planes);
 };
 
 /// The planes of values, radiance first.
-inline constexpr std::array<std::vector<glm::vec3> SampleSet::*, 7> kValuePlanes = {
-    &SampleSet::radiance,     &SampleSet::albedo,      &SampleSet::normal,    &SampleSet::motion,
-    &SampleSet::illumination, &SampleSet::reflectance, &SampleSet::reflection};
+inline constexpr std::array<std::vector<glm::vec3> SampleSet::*, 11> kValuePlanes = {
+    &SampleSet::radiance,     &SampleSet::albedo,      &SampleSet::normal,     &SampleSet::motion,
+    &SampleSet::illumination, &SampleSet::reflectance, &SampleSet::reflection, &SampleSet::position,
+    &SampleSet::light,        &SampleSet::blocker,     &SampleSet::direct};
 
 /// Room for samples and their values, of equal length; all but samples and radiance may be empty.
 struct SampleSpans {
     std::span<LightFieldSample> samples;
     std::span<glm::vec3> radiance, albedo = {}, normal = {}, motion = {}, illumination = {}, reflectance = {},
-                                   reflection = {};
+                                   reflection = {}, position = {}, light = {}, blocker = {}, direct = {};
 };
 SampleSpans spansOf(SampleSet& set);
 

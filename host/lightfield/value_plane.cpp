@@ -40,6 +40,8 @@ glm::vec3 unchecked(const LightField& field, ValuePlane plane, std::size_t sampl
         return field.hasShading() ? field.illumination[sample] : glm::vec3(0);
     case ValuePlane::reflection:
         return field.hasShading() ? field.reflection[sample] : glm::vec3(0);
+    case ValuePlane::direct:
+        return field.hasShadows() ? field.direct[sample] : glm::vec3(0);
     }
     return glm::vec3(0);
 }

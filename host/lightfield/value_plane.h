@@ -12,12 +12,23 @@ namespace slant {
 ///   upwards, as (right + k, up + k, k) with the least k >= 0 that leaves nothing negative (signed again by
 ///   fromForwardValue).
 ///
-/// - illumination, reflection: as they stand in the field, 0 where it has none. No picture: for the filter of
+/// - illumination, reflection, direct: as they stand in the field, 0 where it has none. No picture: for the
+/// filter of
 ///   shading.
 ///
 /// Whatever plane a picture shows, its values are neither negative nor infinite, and those of a plane are of
 /// one order of magnitude: the layer map keeps them with a common exponent.
-enum class ValuePlane { radiance, coverage, depth, albedo, normal, forward, illumination, reflection };
+enum class ValuePlane {
+    radiance,
+    coverage,
+    depth,
+    albedo,
+    normal,
+    forward,
+    illumination,
+    reflection,
+    direct
+};
 
 /// The value of one sample. Whatever is negative or not finite is 0; albedo and normal of a field without
 /// them are those of a sample that hit nothing, and nothing moves in a field without motions.

@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "base/sort.h"
+#include "lib/hash.glsl"
 #include "lib/shading.glsl"
 #include "reconstruct/kernels.h"
 #include "reconstruct/layer_map.h"
@@ -15,7 +16,7 @@ namespace slant {
 namespace {
 
 /// How far the filters and averages of all bands reach together.
-constexpr int kReach = (1 << kShadingBands) - 1 + (2 << kShadingBands) - 1;
+constexpr int kReach = (1 << kShadingBands) - 1 + (2 << kShadingBands) - 1 + kShadowReach;
 /// What is blurred over more than this has little noise left.
 constexpr float kMaxBlurPx = 128;
 constexpr int kLeastRows = 8;
@@ -32,9 +33,20 @@ vec4 surfaceOf(const LightField& field, std::size_t sample) {
     return std::isfinite(nearness) && nearness > 0 ? vec4(normal, nearness) : vec4(0);
 }
 
+vec4 shadowRayOf(const LightField& field, std::size_t sample) {
+    const vec3 &from = field.position[sample], to = field.light[sample] - from,
+               free = field.blocker[sample] - from;
+    const float whole = glm::dot(to, to), part = glm::dot(free, free);
+    if (!(whole > 0) || !std::isfinite(whole + part + from.x + from.y + from.z)) return vec4(0);
+    if (field.blocker[sample] == field.light[sample]) return vec4(from, kUnblocked);
+    return vec4(from, std::clamp(std::sqrt(part / whole), std::numeric_limits<float>::min(), 1.f));
+}
+
 ShadingPlan planShading(const LightField& field, const GridLayout& grid, std::uint64_t bytes) {
     const Rect& region = field.frame;
-    ShadingPlan plan{std::ranges::any_of(field.reflection, [](const vec3& v) { return v != vec3(0); }), {}};
+    ShadingPlan plan{std::ranges::any_of(field.reflection, [](const vec3& v) { return v != vec3(0); }),
+                     field.hasShadows(),
+                     {}};
     // Whatever the focus, so that pictures do not depend on the one before.
     const vec2 extent = vec2(grid.brickCount * grid.cellsPerBrick) / grid.invCell;
     const vec2 low = glm::max(vec2(float(region.x0), float(region.y0)) - kMaxBlurPx, grid.origin),
@@ -68,6 +80,9 @@ public:
 
     void run() {
         std::vector<vec4> fine(2 * kParts * surfels_), coarse(fine.size());
+        readSurfaces();
+        sortByTexel();
+        if (samples_.field().hasShadows()) soften();
         makeSurfels(fine);
         forEachSurfel([&](int surfel) {
             SlopeKernels kernels{geometry_};
@@ -90,16 +105,39 @@ private:
     static constexpr std::size_t kParts = kReflects ? 2 : 1;
 
     vec3 lightOf(std::size_t sample, int part) const {
+        if (part == 0 && !softened_.empty()) return softened_[sample];
         return samples_.value(part == 0 ? ValuePlane::illumination : ValuePlane::reflection, sample);
     }
 
+    /// The shadow rays in the order of texels.
+    struct SortedRays {
+        std::vector<vec4> rays;
+        std::vector<vec3> lights;
+        std::vector<uint> ofTexels;
+    };
+
+    struct ShadowKernels {
+        const ShadingFilter& filter;
+        const SortedRays& sorted;
+
+        uint texelStartAt(int texel) const { return filter.texelStart_[std::size_t(texel)]; }
+        uint sampleInTexelAt(uint i) const { return filter.bins_.samples[filter.records_[i]]; }
+        const vec4& rayAt(uint i) const { return sorted.rays[i]; }
+        uint halfAt(uint i) const { return sampleInTexelAt(i) & 1u; }
+        const vec3& lightPlaceAt(uint i) const { return sorted.lights[i]; }
+        vec3 directAt(uint i) const { return filter.samples_.value(ValuePlane::direct, sampleInTexelAt(i)); }
+        const vec4& normalAt(uint i) const { return filter.surfaces_[sampleInTexelAt(i)]; }
+        uint raysOf(int texel) const { return sorted.ofTexels[std::size_t(texel)]; }
+#include "lib/shadow_texels.glsl"
+#include "lib/soft_shadows.glsl"
+    };
+
     struct SurfelKernels {
         ShadingFilter& filter;
-        const std::vector<uint>& records;
 
-        uint recordAt(uint i) const { return records[i]; }
+        uint recordAt(uint i) const { return filter.records_[i]; }
         uint sampleAt(uint record) const { return filter.bins_.samples[record]; }
-        vec4 surfaceAt(uint sample) const { return surfaceOf(filter.samples_.field(), sample); }
+        const vec4& surfaceAt(uint sample) const { return filter.surfaces_[sample]; }
         vec3 lightAt(uint sample, int part) const { return filter.lightOf(sample, part); }
         void keepSurfelOf(uint record, uint surfel) { filter.surfelOfRecord_[record] = surfel; }
 #include "lib/surfels.glsl"
@@ -140,29 +178,77 @@ private:
         });
     }
 
-    void makeSurfels(std::vector<vec4>& light) {
-        std::vector<uint> keys(bins_.positions.size()), records(keys.size());
-        for (std::size_t i = 0; i < keys.size(); ++i) {
-            keys[i] = texelOf(band_.layout, vec2(bins_.positions[i]));
-            records[i] = uint(i);
-        }
-        const std::size_t texels = surfels_ / kSurfels;
-        radixSort(keys, records, keyBitsFor(uint(texels) + 1));
-        parallelFor(0, texels, 1 << 9, [&](std::size_t first, std::size_t last) {
-            auto begin = std::ranges::lower_bound(keys, uint(first));
-            for (std::size_t texel = first; texel < last; ++texel) {
-                const auto end = std::find_if(begin, keys.end(), [&](uint key) { return key != texel; });
-                makeSurfels(texel, records, uint(begin - keys.begin()), uint(end - keys.begin()), light);
-                begin = end;
-            }
+    void readSurfaces() {
+        surfaces_.resize(samples_.field().samples.size());
+        parallelFor(0, surfaces_.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) surfaces_[i] = surfaceOf(samples_.field(), i);
         });
     }
 
-    void makeSurfels(std::size_t texel, const std::vector<uint>& records, uint begin, uint end,
-                     std::vector<vec4>& light) {
+    void sortByTexel() {
+        std::vector<uint> keys(bins_.positions.size());
+        records_.resize(keys.size());
+        for (std::size_t i = 0; i < keys.size(); ++i) {
+            keys[i] = texelOf(band_.layout, vec2(bins_.positions[i]));
+            records_[i] = uint(i);
+        }
+        const std::size_t texels = surfels_ / kSurfels;
+        radixSort(keys, records_, keyBitsFor(uint(texels) + 1));
+        texelStart_.resize(texels + 1);
+        auto begin = keys.begin();
+        for (std::size_t texel = 0; texel <= texels; ++texel) {
+            begin = std::find_if(begin, keys.end(), [&](uint key) { return key >= texel; });
+            texelStart_[texel] = uint(begin - keys.begin());
+        }
+    }
+
+    SortedRays sortRays() const {
+        const std::size_t count = texelStart_.back();
+        SortedRays sorted{std::vector<vec4>(count), std::vector<vec3>(count),
+                          std::vector<uint>(texelStart_.size() - 1)};
+        forEachTexel([&](std::size_t texel) {
+            ShadowKernels kernels{*this, sorted};
+            const uint begin = texelStart_[texel], end = texelStart_[texel + 1];
+            for (uint i = begin; i < end; ++i) {
+                const uint sample = kernels.sampleInTexelAt(i);
+                sorted.rays[i] = shadowRayOf(samples_.field(), sample);
+                sorted.lights[i] = samples_.field().light[sample];
+            }
+            sorted.ofTexels[texel] = kernels.raysBetween(begin, end);
+        });
+        return sorted;
+    }
+
+    /// The illumination of the samples in texels, with the shadows that their neighbours see.
+    void soften() {
+        const SortedRays sorted = sortRays();
+        std::vector<vec3> softened(samples_.field().samples.size());
+        forEachTexel([&](std::size_t texel) {
+            ShadowKernels kernels{*this, sorted};
+            auto window = kernels.windowAround(int(texel), size_);
+            for (uint i = texelStart_[texel]; i < texelStart_[texel + 1]; ++i) {
+                const uint sample = kernels.sampleInTexelAt(i);
+                softened[sample] = kernels.withSoftShadow(lightOf(sample, 0), window, i, hash(sample));
+            }
+        });
+        softened_ = std::move(softened);
+    }
+
+    template <typename Do>
+    void forEachTexel(const Do& act) const {
+        parallelFor(0, surfels_ / kSurfels, 1 << 9, [&](std::size_t first, std::size_t last) {
+            for (std::size_t texel = first; texel < last; ++texel) act(texel);
+        });
+    }
+
+    void makeSurfels(std::vector<vec4>& light) {
+        forEachTexel([&](std::size_t texel) { makeSurfels(texel, light); });
+    }
+
+    void makeSurfels(std::size_t texel, std::vector<vec4>& light) {
         const std::size_t first = texel * kSurfels;
-        SurfelKernels kernels{*this, records};
-        const auto found = kernels.surfelsOf(begin, end, uint(first));
+        SurfelKernels kernels{*this};
+        const auto found = kernels.surfelsOf(texelStart_[texel], texelStart_[texel + 1], uint(first));
         for (int layer = 0; layer < kSurfels; ++layer) {
             const std::size_t surfel = first + std::size_t(layer);
             geometry_[surfel] = kernels.meanGeometry(found, layer);
@@ -224,9 +310,9 @@ private:
                 const uint surfel = surfelOfRecord_[record];
                 if (!isShaded(surfel, push)) continue;
                 const std::size_t sample = bins_.samples[record], i = surfel * kParts;
-                vec3 light = lightOf(sample, 0);
+                vec3 light = samples_.value(ValuePlane::illumination, sample);
                 vec3 change = samples_.field().reflectance[sample] *
-                              (filteredLight(light, means_[i], changes_[i]) - light);
+                              (filteredLight(lightOf(sample, 0), means_[i], changes_[i]) - light);
                 if (kReflects) {
                     light = lightOf(sample, 1);
                     change += filteredLight(light, means_[i + 1], changes_[i + 1]) - light;
@@ -242,10 +328,13 @@ private:
     const ShadingBand& band_;
     ivec2 size_;
     std::size_t surfels_;
+    std::vector<vec4> surfaces_; ///< of each sample
     std::vector<vec4> geometry_;
     std::vector<vec2> slopes_;
     std::vector<vec4> means_, changes_; ///< of each surfel, part after part
     std::vector<uint> surfelOfRecord_;
+    std::vector<uint> records_, texelStart_; ///< in the order of their texels; first of each, and of one more
+    std::vector<vec3> softened_;             ///< illumination of each sample; empty without shadow rays
 };
 
 } // namespace

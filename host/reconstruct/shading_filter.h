@@ -1,8 +1,11 @@
 // Stage "shading": less noise in the radiance of samples, from their neighbours on the same surface, before
 // lens and shutter are integrated. The compute path makes the same words.
 //
-// Samples are put together by pinhole position into surfels, a pixel wide and up to two per texel: what blur
-// spreads over the picture lies side by side there, and nothing is blurred twice. Their illumination
+// First, direct light: whether something is between a sample and places on lights is seen from the shadow
+// rays of its neighbours (lib/soft_shadows.glsl), where the field has them.
+//
+// Then samples are put together by pinhole position into surfels, a pixel wide and up to two per texel: what
+// blur spreads over the picture lies side by side there, and nothing is blurred twice. Their illumination
 // (radiance over reflectance, so that textures stay out of it) is split into bands of detail by filters of
 // growing width over surfels of one plane (the à-trous wavelets of Dammertz et al. 2010). Two halves of the
 // samples have the same signal and independent noise, so their correlation in a band, averaged around a
@@ -20,6 +23,10 @@ namespace slant {
 /// shade.
 vec4 surfaceOf(const LightField& field, std::size_t sample);
 
+/// The shadow ray of a sample: its position (xyz), and which share of the way to the light is free (w):
+/// kUnblocked if all of it, 0 if there is no ray.
+vec4 shadowRayOf(const LightField& field, std::size_t sample);
+
 /// A band of rows of texels, with as many rows around as the filter reaches: those that are changed are
 /// [firstRow, lastRow).
 struct ShadingBand {
@@ -28,6 +35,7 @@ struct ShadingBand {
 };
 struct ShadingPlan {
     bool reflects; ///< some surface does other than diffusely, so that light has two parts
+    bool shadows;  ///< shadow rays are known
     /// Cover the pinhole positions of what is seen, but for what is blurred by more than 128 pixels: its
     /// noise is little.
     std::vector<ShadingBand> bands;

@@ -7,10 +7,13 @@
 
 namespace slant {
 
-bool hasShadingNoise(const Scene& scene) {
+bool hasSoftShadows(const Scene& scene) {
     const auto isSpread = [](const Light& light) { return light.kind == LightKind::infinite; };
-    return !scene.areaLights.empty() || std::ranges::any_of(scene.lights, isSpread) ||
-           scene.lights.size() > 1 || scene.maxDepth > 1;
+    return !scene.areaLights.empty() || std::ranges::any_of(scene.lights, isSpread);
+}
+
+bool hasShadingNoise(const Scene& scene) {
+    return hasSoftShadows(scene) || scene.lights.size() > 1 || scene.maxDepth > 1;
 }
 
 TracedField traceField(const Tracer& tracer, const Scene& scene, const SampleOptions& options,
@@ -44,7 +47,10 @@ Rendering render(const Scene& scene, const RenderOptions& options, Backend& back
     checkBudget(scene.film.crop, options.sampling.samplesPerPixel, reconstruction);
     SampleOptions sampling = options.sampling;
     sampling.planes.albedo = options.auxiliary;
-    sampling.planes.shading = traitsOf(reconstruction.method).filtersShading && hasShadingNoise(scene);
+    if (traitsOf(reconstruction.method).filtersShading) {
+        sampling.planes.shading = hasShadingNoise(scene);
+        sampling.planes.shadows = hasSoftShadows(scene);
+    }
 
     Rendering result;
     {

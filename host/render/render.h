@@ -24,6 +24,8 @@ FieldMetadata metadataOf(const Scene& scene, const Camera& camera, std::string s
 /// Whether samples of equal places differ in their light: all is lit by one point or direction alone
 /// otherwise. Only then they need the parts of their radiance (SamplePlanes::shading).
 bool hasShadingNoise(const Scene& scene);
+/// Whether some light has an extent: then they need the rays to lights, too (SamplePlanes::shadows).
+bool hasSoftShadows(const Scene& scene);
 
 /// Throws what traceLightField throws.
 TracedField traceField(const Tracer& tracer, const Scene& scene, const SampleOptions& options,

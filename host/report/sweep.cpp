@@ -61,7 +61,7 @@ public:
         for (const std::string& path : options.scenes) {
             if (!names.insert(nameOf(path)).second)
                 throw Error(ErrorCode::usage, fmt::format("two scenes are called '{}'", nameOf(path)));
-            scenes_.push_back(readScene(path, monitor));
+            scenes_.push_back(readScene(path, monitor, options.reading));
             if (options.halfSize) halve(scenes_.back());
         }
         std::set<std::string> deviceNames;
@@ -144,7 +144,8 @@ private:
             options_.methods, [](Method method) { return traitsOf(method).filtersShading; });
         const SampleOptions sampling{.samplesPerPixel = spp,
                                      .seed = options_.seed,
-                                     .planes = {.shading = filtered && hasShadingNoise(scene)}};
+                                     .planes = {.shading = filtered && hasShadingNoise(scene),
+                                                .shadows = filtered && hasSoftShadows(scene)}};
         LightField field;
         Timing trace;
         beginShare(scene, std::uint64_t(spp), options_.repeat + 1);

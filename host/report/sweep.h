@@ -4,6 +4,7 @@
 #include "base/monitor.h"
 #include "reconstruct/method.h"
 #include "report/results.h"
+#include "scene/read_scene.h"
 
 #include <cstdint>
 #include <functional>
@@ -14,6 +15,7 @@ namespace slant {
 
 /// Lists are not empty and have no duplicates; numbers ascend.
 struct SweepOptions {
+    ReadOptions reading;             ///< of the scenes
     std::vector<std::string> scenes; ///< pbrt files; their names without folder and extension differ
     std::vector<Method> methods;
     std::vector<int> samples;         ///< input samples per pixel

@@ -11,6 +11,7 @@ struct GraphicsState {
     MovingTransform transform; ///< pbrt's CTM: world (before WorldBegin: camera) from object space
     ActiveTransform active = ActiveTransform::all;
     bool reverseOrientation = false;
+    const ColourSpace* colourSpace = nullptr; ///< of rgb parameters; Rec.709 if null
     int materialIndex = 0;
     int areaLightIndex = -1;
     /// Defaults that Attribute sets, by target.

@@ -1,24 +1,15 @@
 #include "scene/image_files.h"
 
-#include "base/read_file.h"
-#include "image/exr.h"
-#include "image/png.h"
+#include "image/picture.h"
 #include "image/srgb.h"
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 namespace slant {
 namespace {
 
 using Kind = ColourEncoding::Kind;
-
-bool isPng(const std::string& path) {
-    char signature[4] = {};
-    std::ifstream(path, std::ios::binary).read(signature, sizeof signature);
-    return std::string_view(signature, 4) == "\x89PNG";
-}
 
 float decoded(float value, ColourEncoding encoding) {
     switch (encoding.kind) {
@@ -43,14 +34,13 @@ std::vector<int> colourChannels(const Image& image) {
 } // namespace
 
 Image readImageFile(const std::string& path, ColourEncoding encoding, bool average, const Position& where) {
-    Image file;
-    bool encoded = false;
+    Picture picture;
     try {
-        encoded = isPng(path);
-        file = encoded ? readPng(path) : readExr(path).image;
+        picture = readPicture(path);
     } catch (const Error& error) {
         throw Error(error.code(), where, error.what());
     }
+    const auto& [file, encoded] = picture;
     const std::vector<int> colours = colourChannels(file);
     if (colours.empty()) throw badInput(where, "{} has neither channels R, G, B nor Y", path);
 

@@ -5,8 +5,8 @@
 
 namespace slant {
 
-/// A PNG or OpenEXR image (by content) as linear values: R, G, B, or one channel Y if the file is grey or
-/// with `average`, the mean of the colours. Alpha is dropped, as pbrt does for colours. Throws
+/// An image of any kind that image/picture.h reads as linear values: R, G, B, or one channel Y if the file is
+/// grey or with `average`, the mean of the colours. Alpha is dropped, as pbrt does for colours. Throws
 /// Error(badInput) at `where`.
 Image readImageFile(const std::string& path, ColourEncoding encoding, bool average, const Position& where);
 

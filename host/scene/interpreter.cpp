@@ -1,6 +1,5 @@
 #include "scene/interpreter.h"
 
-#include "base/monitor.h"
 #include "base/suggest.h"
 #include "scene/spelling.h"
 
@@ -24,8 +23,9 @@ std::string canonical(const std::string& path) {
 
 } // namespace
 
-Interpreter::Interpreter(const std::string& directory, Scene& scene, Monitor& monitor)
-    : scene_(scene), monitor_(monitor), files_(directory, scene, monitor), textures_(scene, files_) {}
+Interpreter::Interpreter(const std::string& directory, Scene& scene, Issues& issues, Monitor& monitor)
+    : scene_(scene), issues_(issues), files_(directory, scene, monitor), textures_(scene, files_, issues),
+      materials_(issues), options_(issues) {}
 
 const std::map<std::string_view, Interpreter::Directive>& Interpreter::directives() {
     using I = Interpreter;
@@ -50,6 +50,7 @@ const std::map<std::string_view, Interpreter::Directive>& Interpreter::directive
         {"LightSource", {Block::world, &I::lightSource}},
         {"LookAt", {Block::any, &I::lookAt}},
         {"MakeNamedMaterial", {Block::world, &I::makeNamedMaterial}},
+        {"MakeNamedMedium", {Block::any, &I::makeNamedMedium}},
         {"Material", {Block::world, &I::material}},
         {"MediumInterface", {Block::any, &I::mediumInterface}},
         {"NamedMaterial", {Block::world, &I::namedMaterial}},
@@ -58,24 +59,25 @@ const std::map<std::string_view, Interpreter::Directive>& Interpreter::directive
         {"ObjectInstance", {Block::world, &I::objectInstance}},
         {"Option", {Block::any, &I::option}},
         {"PixelFilter", {Block::options, &I::pixelFilter}},
+        {"Renderer", {Block::options, &I::renderer}},
         {"ReverseOrientation", {Block::world, &I::reverseOrientation}},
         {"Rotate", {Block::any, &I::rotate}},
         {"Sampler", {Block::options, &I::sampler}},
         {"Scale", {Block::any, &I::scale}},
         {"Shape", {Block::world, &I::shape}},
+        {"SurfaceIntegrator", {Block::options, &I::integrator}},
         {"Texture", {Block::world, &I::texture}},
         {"Transform", {Block::any, &I::transform}},
         {"TransformBegin", {Block::world, &I::transformBegin}},
         {"TransformEnd", {Block::world, &I::attributeEnd}},
         {"TransformTimes", {Block::options, &I::transformTimes}},
         {"Translate", {Block::any, &I::translate}},
+        {"Volume", {Block::world, &I::volume}},
+        {"VolumeIntegrator", {Block::options, &I::renderer}},
         {"WorldBegin", {Block::options, &I::worldBegin}},
+        {"WorldEnd", {Block::world, &I::worldEnd}},
     };
     return table;
-}
-
-void Interpreter::warn(const Position& where, const std::string& message) {
-    monitor_.warn(FileLocation(where).text() + ": " + message);
 }
 
 void Interpreter::run(const std::string& name, const std::string& text) {
@@ -89,30 +91,40 @@ void Interpreter::run(const std::string& name, const std::string& text) {
         if (directive == directives().end()) {
             std::vector<std::string_view> names;
             for (const auto& entry : directives()) names.push_back(entry.first);
-            throw badInput(token.position, "unknown directive {}{}", token.shown(),
-                           didYouMean(token.text, names));
+            throw syntaxError(token.position, "unknown directive {}{}", token.shown(),
+                              didYouMean(token.text, names));
         }
         const auto block = directive->second.block;
         if (block == Directive::Block::world && !inWorld_)
-            throw badInput(token.position, "{} must stand after WorldBegin", token.text);
+            throw syntaxError(token.position, "{} must stand after WorldBegin", token.text);
         if (block == Directive::Block::options && inWorld_)
-            throw badInput(token.position, "{} must stand before WorldBegin", token.text);
-        (this->*directive->second.handler)(tokens, token.position);
+            throw syntaxError(token.position, "{} must stand before WorldBegin", token.text);
+        carryOut(directive->second, tokens, token.position);
     }
     openFiles_.pop_back();
+}
+
+void Interpreter::carryOut(const Directive& directive, Tokenizer& tokens, const Position& where) {
+    if (issues_.attempt("it is left out", [&] { (this->*directive.handler)(tokens, where); })) return;
+    // The handler may have stopped before its last word.
+    const auto isDirective = [](const Token& token) {
+        return token.kind == TokenKind::end ||
+               (token.kind == TokenKind::word && directives().contains(token.text));
+    };
+    while (!isDirective(tokens.peek())) tokens.next();
 }
 
 void Interpreter::runFile(Tokenizer& tokens, const Position& where) {
     const Token filename = tokens.next();
     const std::string path = files_.resolve(stringOf(filename));
     if (std::find(openFiles_.begin(), openFiles_.end(), canonical(path)) != openFiles_.end())
-        throw badInput(where, "{} includes itself", path);
+        throw syntaxError(where, "{} includes itself", path);
     if (openFiles_.size() > kMaxFileDepth)
-        throw badInput(where, "files are included more than {} deep", kMaxFileDepth);
+        throw syntaxError(where, "files are included more than {} deep", kMaxFileDepth);
     const std::string text = readBytes(path, filename.position);
     scene_.files.push_back(path);
     if (++filesRead_ > kMaxFilesRead || textBytes_ + text.size() > kMaxTextBytes)
-        throw badInput(where, "more than {} files or {} bytes are included", kMaxFilesRead, kMaxTextBytes);
+        throw syntaxError(where, "more than {} files or {} bytes are included", kMaxFilesRead, kMaxTextBytes);
     run(path, text);
 }
 
@@ -128,7 +140,7 @@ void Interpreter::import(Tokenizer& tokens, const Position& where) {
     const int object = openObject_;
     runFile(tokens, where);
     if (saved_.size() != depth || openObject_ != object)
-        throw badInput(where, "the imported file must close all that it opens, and nothing else");
+        throw syntaxError(where, "the imported file must close all that it opens, and nothing else");
     state_ = state;
     coordinateSystems_ = coordinateSystems;
 }
@@ -138,20 +150,21 @@ void Interpreter::worldBegin(Tokenizer&, const Position&) {
     state_.transform = {};
     state_.active = ActiveTransform::all;
     coordinateSystems_["world"] = state_.transform;
-    options_.resolve(scene_, files_, monitor_);
+    options_.resolve(scene_, files_);
 }
 
 void Interpreter::push(bool isObject, const Position& where) {
     if (saved_.size() >= kMaxNesting)
-        throw badInput(where, "attributes are nested more than {} deep", kMaxNesting);
+        throw syntaxError(where, "attributes are nested more than {} deep", kMaxNesting);
     saved_.push_back({state_, isObject, where});
 }
 
 void Interpreter::pop(bool isObject, const char* directive, const char* opening, const Position& where) {
-    if (saved_.empty()) throw badInput(where, "{} without {}", directive, opening);
-    if (saved_.back().isObject != isObject)
-        throw badInput(where, "{} within the {} of line {}", directive,
-                       isObject ? "AttributeBegin" : "ObjectBegin", saved_.back().where.line);
+    if (saved_.empty()) throw syntaxError(where, "{} without {}", directive, opening);
+    // Older files may end their attributes within an object that they began outside of it.
+    if (saved_.back().isObject != isObject && !isOlder_)
+        throw syntaxError(where, "{} within the {} of line {}", directive,
+                          isObject ? "AttributeBegin" : "ObjectBegin", saved_.back().where.line);
     state_ = std::move(saved_.back().state);
     saved_.pop_back();
 }
@@ -165,7 +178,8 @@ void Interpreter::attributeEnd(Tokenizer&, const Position& where) {
 }
 
 void Interpreter::transformBegin(Tokenizer&, const Position& where) {
-    warn(where, "TransformBegin and TransformEnd are deprecated and mean AttributeBegin and AttributeEnd");
+    issues_.note(where,
+                 "TransformBegin and TransformEnd are deprecated and mean AttributeBegin and AttributeEnd");
     push(false, where);
 }
 
@@ -178,36 +192,39 @@ void Interpreter::attribute(Tokenizer& tokens, const Position&) {
         throw badInput(token.position, "unknown attribute target {}{}", token.shown(),
                        didYouMean(name, kTargets));
     ParameterVector& defaults = state_.defaults[std::size_t(target - std::begin(kTargets))];
-    for (auto& parameter : readParameters(tokens)) {
+    for (auto& parameter : parameters(tokens)) {
         // The last one counts; those before it need not be kept.
         std::erase_if(defaults, [&](const auto& p) {
             return p->name == parameter->name && p->type == parameter->type;
         });
         if (defaults.size() >= kMaxDefaults)
-            throw badInput(parameter->position, "more than {} attributes of one target", kMaxDefaults);
+            throw syntaxError(parameter->position, "more than {} attributes of one target", kMaxDefaults);
         defaults.push_back(std::move(parameter));
     }
 }
 
 void Interpreter::finish() {
     const Position end{fileNames_.empty() ? nullptr : &fileNames_.front(), 0, 0};
-    if (!inWorld_) throw badInput(end, "the file has no WorldBegin");
+    if (!inWorld_ && issues_.empty()) throw syntaxError(end, "the file has no WorldBegin");
     if (!saved_.empty())
-        throw badInput(saved_.back().where, "this {} is never closed",
-                       saved_.back().isObject ? "ObjectBegin" : "AttributeBegin");
+        throw syntaxError(saved_.back().where, "this {} is never closed",
+                          saved_.back().isObject ? "ObjectBegin" : "AttributeBegin");
     textures_.buildAll();
     materials_.build(scene_, textures_, files_);
     dropInterfaces(scene_);
-    for (const PendingInstance& instance : instances_) {
-        const auto object = objects_.find(instance.name);
-        if (object == objects_.end()) {
-            std::vector<std::string_view> names;
-            for (const auto& entry : objects_) names.push_back(entry.first);
-            throw badInput(instance.where, "there is no object '{}'{}", printable(instance.name),
-                           didYouMean(instance.name, names));
-        }
-        scene_.instances.push_back({object->second, instance.transform});
+    for (const PendingInstance& instance : instances_)
+        issues_.attempt("it is left out", [&] { place(instance); });
+}
+
+void Interpreter::place(const PendingInstance& instance) {
+    const auto object = objects_.find(instance.name);
+    if (object == objects_.end()) {
+        std::vector<std::string_view> names;
+        for (const auto& entry : objects_) names.push_back(entry.first);
+        throw badInput(instance.where, "there is no object '{}'{}", printable(instance.name),
+                       didYouMean(instance.name, names));
     }
+    scene_.instances.push_back({object->second, instance.transform});
 }
 
 } // namespace slant

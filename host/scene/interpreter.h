@@ -9,6 +9,7 @@
 
 #include <deque>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,11 +17,12 @@ namespace slant {
 
 class Monitor;
 
-/// Feed it the main text, then finish(). Throws Error(badInput) at the first thing that is wrong.
+/// Feed it the main text, then finish(). What is wrong or not supported goes to the issues, and reading goes
+/// on; throws Error(badInput) where that makes no sense.
 class Interpreter {
 public:
-    /// `directory` is where relative file names start. Both references must outlive this.
-    Interpreter(const std::string& directory, Scene& scene, Monitor& monitor);
+    /// `directory` is where relative file names start. All must outlive this.
+    Interpreter(const std::string& directory, Scene& scene, Issues& issues, Monitor& monitor);
 
     void run(const std::string& name, const std::string& text);
     void finish();
@@ -53,9 +55,10 @@ private:
     void attributeEnd(Tokenizer& tokens, const Position& where);
     void transformBegin(Tokenizer& tokens, const Position& where);
     void attribute(Tokenizer& tokens, const Position& where);
+    void place(const PendingInstance& instance);
     void push(bool isObject, const Position& where);
     void pop(bool isObject, const char* directive, const char* opening, const Position& where);
-    void warn(const Position& where, const std::string& message);
+    void carryOut(const Directive& directive, Tokenizer& tokens, const Position& where);
 
     // interpreter_transforms.cpp
     void identity(Tokenizer& tokens, const Position& where);
@@ -81,7 +84,11 @@ private:
     void camera(Tokenizer& tokens, const Position& where);
     void option(Tokenizer& tokens, const Position& where);
     void colorSpace(Tokenizer& tokens, const Position& where);
+    void renderer(Tokenizer& tokens, const Position& where);
+    void worldEnd(Tokenizer& tokens, const Position& where);
+    void volume(Tokenizer& tokens, const Position& where);
     void mediumInterface(Tokenizer& tokens, const Position& where);
+    void makeNamedMedium(Tokenizer& tokens, const Position& where);
     void reverseOrientation(Tokenizer& tokens, const Position& where);
     void material(Tokenizer& tokens, const Position& where);
     void makeNamedMaterial(Tokenizer& tokens, const Position& where);
@@ -94,21 +101,23 @@ private:
     void objectEnd(Tokenizer& tokens, const Position& where);
     void objectInstance(Tokenizer& tokens, const Position& where);
     void setOption(const char* directive, Tokenizer& tokens, const Position& where);
-    ParameterList list(const std::string& subject, Tokenizer& tokens, const Position& where);
-    ParameterList list(const std::string& subject, Tokenizer& tokens, const Position& where,
-                       AttributeTarget target);
+    ParameterList list(std::string_view directive, std::string& kind, Tokenizer& tokens,
+                       const Position& where, const ParameterVector& inherited = {});
+    ParameterVector parameters(Tokenizer& tokens) const;
+    const ParameterVector& defaults(AttributeTarget target) const;
     void warnIfMoving(const char* what, const Position& where);
-    MovingTransform placement(const Position& where) const;
+    void noteOlder(const Position& where);
+    std::optional<MovingTransform> placement(const Position& where);
 
     Scene& scene_;
-    Monitor& monitor_;
+    Issues& issues_;
     SceneFiles files_;
     TextureTable textures_;
     MaterialTable materials_;
     OptionBlock options_;
     GraphicsState state_;
     std::vector<Saved> saved_;
-    bool inWorld_ = false;
+    bool inWorld_ = false, isOlder_ = false;
     std::array<double, 2> transformTimes_{0, 1};
     std::map<std::string, MovingTransform> coordinateSystems_;
     std::map<std::string, int> objects_;

@@ -30,7 +30,7 @@ glm::dmat4 readMatrix(Tokenizer& tokens, const Position& where) {
 } // namespace
 
 void Interpreter::setTransform(const MovingTransform& transform, const Position& where) {
-    for (const glm::dmat4& matrix : transform.at) checkInvertible(matrix, where);
+    checkFinite(transform, where);
     state_.transform = transform;
 }
 

@@ -54,16 +54,10 @@ void readLightImage(Light& light, ParameterList& parameters, SceneFiles& files, 
     light.power = positive(parameters, "power");
 }
 
-void readGoniometric(Light& light, ParameterList& parameters, const Scene& scene, SceneFiles& files) {
+void readGoniometric(Light& light, ParameterList& parameters, SceneFiles& files) {
     light.kind = LightKind::goniometric;
     light.emission = emission(parameters, "I");
     readLightImage(light, parameters, files, true);
-    const Image& image = scene.images[std::size_t(light.imageIndex)];
-    if (image.width() != image.height())
-        throw badInput(
-            parameters.positionOf("filename"),
-            "the image of a goniometric light must be square (equal-area octahedral), but it is {}x{}",
-            image.width(), image.height());
 }
 
 void readProjection(Light& light, ParameterList& parameters, SceneFiles& files) {
@@ -81,7 +75,7 @@ void readDistant(Light& light, ParameterList& parameters) {
     light.illuminance = positive(parameters, "illuminance");
 }
 
-void readInfinite(Light& light, ParameterList& parameters, const Scene& scene, SceneFiles& files) {
+void readInfinite(Light& light, ParameterList& parameters, SceneFiles& files) {
     light.kind = LightKind::infinite;
     light.illuminance = positive(parameters, "illuminance");
     if (const std::vector<glm::vec3> portal = parameters.triples("portal", "point3"); !portal.empty()) {
@@ -98,22 +92,13 @@ void readInfinite(Light& light, ParameterList& parameters, const Scene& scene, S
     const Position where = parameters.positionOf("filename");
     if (findSpectrum(parameters, "L"))
         throw badInput(parameters.positionOf("L"), "an infinite light has either 'L' or 'filename'");
-    light.imageIndex = files.image(*filename, {}, false, where);
-    const Image& image = scene.images[std::size_t(light.imageIndex)];
-    if (image.width() != image.height())
-        throw badInput(
-            where,
-            "the image of an infinite light must be square (equal-area octahedral), but {} is {}x{}; "
-            "convert a latitude-longitude map with: imgtool makeequiarea",
-            *filename, image.width(), image.height());
-    if (image.channelCount() != 3)
-        throw badInput(where, "the image of an infinite light must have channels R, G and B");
+    light.imageIndex = files.environment(*filename, where);
 }
 
 } // namespace
 
 Light readLight(const std::string& kind, ParameterList& parameters, const glm::dmat4& worldFromLight,
-                const Scene& scene, SceneFiles& files) {
+                SceneFiles& files) {
     Light light;
     light.worldFromLight = worldFromLight;
     light.location = parameters.position();
@@ -123,24 +108,24 @@ Light readLight(const std::string& kind, ParameterList& parameters, const glm::d
     else if (kind == "spot")
         readSpot(light, parameters);
     else if (kind == "goniometric")
-        readGoniometric(light, parameters, scene, files);
+        readGoniometric(light, parameters, files);
     else if (kind == "projection")
         readProjection(light, parameters, files);
     else if (kind == "distant")
         readDistant(light, parameters);
     else if (kind == "infinite")
-        readInfinite(light, parameters, scene, files);
+        readInfinite(light, parameters, files);
     else
-        throw badInput(parameters.position(), "light \"{}\" is not supported{}", printable(kind),
-                       didYouMean(kind, kKinds));
+        throw unsupported(parameters.position(), "light \"{}\" is not supported{}", printable(kind),
+                          didYouMean(kind, kKinds));
     parameters.finish();
     return light;
 }
 
 AreaLight readAreaLight(const std::string& kind, ParameterList& parameters, SceneFiles& files) {
     if (kind != "diffuse")
-        throw badInput(parameters.position(), "area light \"{}\" is not supported{}", printable(kind),
-                       didYouMean(kind, kAreaKinds));
+        throw unsupported(parameters.position(), "area light \"{}\" is not supported{}", printable(kind),
+                          didYouMean(kind, kAreaKinds));
     AreaLight light;
     if (const std::optional<std::string> filename = parameters.text("filename")) {
         if (findSpectrum(parameters, "L"))

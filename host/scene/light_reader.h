@@ -11,7 +11,7 @@ class SceneFiles;
 
 /// Throws Error(badInput), also for parameters that the kind does not have.
 Light readLight(const std::string& kind, ParameterList& parameters, const glm::dmat4& worldFromLight,
-                const Scene& scene, SceneFiles& files);
+                SceneFiles& files);
 
 /// Throws Error(badInput) as above.
 AreaLight readAreaLight(const std::string& kind, ParameterList& parameters, SceneFiles& files);

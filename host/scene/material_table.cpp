@@ -12,6 +12,8 @@
 namespace slant {
 namespace {
 
+const ParameterList::Types kColourTypes{"rgb", "spectrum", "blackbody", "texture"};
+
 // pbrt does not limit these parameters of the random walk in a coating; these bounds limit the cost of a
 // sample.
 constexpr int kMaxLayerDepth = 1000, kMaxLayerSamples = 1000;
@@ -46,9 +48,7 @@ void readGap(Material& material, ParameterList& parameters, TextureTable& textur
 /// The index of refraction of an interface, the same for all colours.
 void readIndex(Material& material, ParameterList& parameters, std::string_view name) {
     if (const Parameter* eta = parameters.find(name, {"float", "spectrum"}))
-        material.interfaceEta = eta->type == "float"    ? *parameters.number(name, kPositive)
-                                : !eta->strings.empty() ? glassEta(*eta)
-                                                        : spectrumValue(*eta, SpectrumUse::unbounded).x;
+        material.interfaceEta = eta->type == "float" ? *parameters.number(name, kPositive) : glassEta(*eta);
 }
 
 void readDiffuse(Material& material, ParameterList& parameters, TextureTable& textures) {
@@ -94,9 +94,13 @@ void readMetal(Material& material, ParameterList& parameters, TextureTable& text
         textures.spectrumTexture(parameters, "reflectance", SpectrumUse::albedo, std::nullopt);
     if (material.reflectance >= 0) {
         for (const std::string& name : {prefix + "eta", prefix + "k"})
-            if (parameters.find(name, {"rgb", "spectrum", "blackbody", "texture"}))
+            if (parameters.find(name, kColourTypes))
                 throw badInput(parameters.positionOf(name),
                                "a conductor has either 'reflectance' or '{0}eta' and '{0}k'", prefix);
+    } else if (const std::optional<Metal> metal = sampledMetal(parameters.find(prefix + "eta", kColourTypes),
+                                                               parameters.find(prefix + "k", kColourTypes))) {
+        material.eta = textures.constant(metal->eta);
+        material.k = textures.constant(metal->k);
     } else {
         material.eta = textures.spectrumTexture(parameters, prefix + "eta", SpectrumUse::unbounded,
                                                 metalSpectrum("metal-Cu-eta"));
@@ -153,8 +157,8 @@ void readBumps(Material& material, ParameterList& parameters, TextureTable& text
 
 } // namespace
 
-MaterialTable::MaterialTable() {
-    add("diffuse", ParameterList({}, "Material \"diffuse\"", {}));
+MaterialTable::MaterialTable(Issues& issues) : issues_(issues) {
+    add("diffuse", ParameterList({}, "Material \"diffuse\"", {}, issues));
 }
 
 int MaterialTable::add(const std::string& kind, ParameterList parameters) {
@@ -173,13 +177,25 @@ int MaterialTable::use(const std::string& name, const Position& where) {
     return indexOf(name, where);
 }
 
-void MaterialTable::define(const std::string& name, ParameterList parameters) {
+void MaterialTable::define(const std::string& name, const std::string& kind, ParameterList parameters,
+                           bool mayReplace) {
     const Position where = parameters.position();
-    Entry& entry = entries_[std::size_t(indexOf(name, where))];
-    if (entry.parameters) throw badInput(where, "the material '{}' is made twice", printable(name));
-    const std::optional<std::string> kind = parameters.text("type");
-    if (!kind) throw badInput(where, "MakeNamedMaterial \"{}\" needs \"string type\"", printable(name));
-    entry = {name, where, *kind, std::move(parameters)};
+    int index = indexOf(name, where);
+    if (entries_[std::size_t(index)].parameters) {
+        if (!mayReplace) throw badInput(where, "the material '{}' is made twice", printable(name));
+        named_[name] = index = int(entries_.size());
+        entries_.emplace_back();
+    }
+    entries_[std::size_t(index)] = {name, where, kind, std::move(parameters)};
+}
+
+Material MaterialTable::built(Entry& entry, TextureTable& textures, SceneFiles& files) {
+    if (entry.parameters) return read(entry, textures, files);
+    std::vector<std::string_view> names;
+    for (const auto& [name, index] : named_)
+        if (entries_[std::size_t(index)].parameters) names.push_back(name);
+    throw badInput(entry.where, "there is no material '{}'{}", printable(entry.name),
+                   didYouMean(entry.name, names));
 }
 
 void MaterialTable::readMix(Material& material, ParameterList& parameters, TextureTable& textures) {
@@ -205,8 +221,8 @@ Material MaterialTable::read(Entry& entry, TextureTable& textures, SceneFiles& f
     } else {
         std::vector<std::string_view> names{kMix};
         for (const Kind& each : kKinds) names.push_back(each.name);
-        throw badInput(parameters.position(), "material \"{}\" is not supported{}", printable(entry.kind),
-                       didYouMean(entry.kind, names));
+        throw unsupported(parameters.position(), "material \"{}\" is not supported{}", printable(entry.kind),
+                          didYouMean(entry.kind, names));
     }
     parameters.finish();
     return material;
@@ -216,14 +232,10 @@ void MaterialTable::build(Scene& scene, TextureTable& textures, SceneFiles& file
     // A mix may name materials that are not made: they join the entries at their end.
     for (std::size_t i = 0; i < entries_.size(); ++i) {
         Entry& entry = entries_[i];
-        if (!entry.parameters) {
-            std::vector<std::string_view> names;
-            for (const auto& [name, index] : named_)
-                if (entries_[std::size_t(index)].parameters) names.push_back(name);
-            throw badInput(entry.where, "there is no material '{}'{}", printable(entry.name),
-                           didYouMean(entry.name, names));
-        }
-        const Material material = read(entry, textures, files);
+        Material material;
+        const auto work = [&] { material = built(entry, textures, files); };
+        if (!issues_.attempt("grey stands in, diffuse with a reflectance of 0.5", work))
+            material = {.reflectance = textures.constant(glm::vec3(0.5f))};
         scene.materials.push_back(material);
     }
     checkMixes(scene);

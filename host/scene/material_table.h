@@ -17,16 +17,18 @@ class TextureTable;
 /// be named before it is made. Index 0 is pbrt's default, diffuse.
 class MaterialTable {
 public:
-    MaterialTable();
+    /// `issues` must outlive this.
+    explicit MaterialTable(Issues& issues);
 
     /// Material: index of a new material.
     int add(const std::string& kind, ParameterList parameters);
-    /// MakeNamedMaterial. Throws Error(badInput) if the name is taken.
-    void define(const std::string& name, ParameterList parameters);
+    /// MakeNamedMaterial. Throws Error(badInput) if the name is taken, unless it `mayReplace` what has it
+    /// from here on, as in older files.
+    void define(const std::string& name, const std::string& kind, ParameterList parameters, bool mayReplace);
     /// NamedMaterial: index of the material of that name.
     int use(const std::string& name, const Position& where);
 
-    /// Fills `scene.materials`. Throws Error(badInput), also for names that were used but never made.
+    /// Fills `scene.materials`; names that were used but never made are issues. Grey stands in.
     void build(Scene& scene, TextureTable& textures, SceneFiles& files);
 
 private:
@@ -40,8 +42,10 @@ private:
     int indexOf(const std::string& name, const Position& where);
     Material read(Entry& entry, TextureTable& textures, SceneFiles& files);
     void readMix(Material& material, ParameterList& parameters, TextureTable& textures);
+    Material built(Entry& entry, TextureTable& textures, SceneFiles& files);
     void checkMixes(const Scene& scene) const;
 
+    Issues& issues_;
     std::deque<Entry> entries_;
     std::map<std::string, int> named_;
 };

@@ -1,14 +1,15 @@
 #include "scene/option_block.h"
 
-#include "base/monitor.h"
 #include "base/suggest.h"
 #include "scene/lens_file.h"
 #include "scene/scene_files.h"
+#include "scene/spectra.h"
 #include "scene/spelling.h"
 #include "scene/transforms.h"
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace slant {
 namespace {
@@ -23,17 +24,47 @@ constexpr std::string_view kFilters[] = {"box", "triangle", "gaussian", "mitchel
 constexpr std::string_view kSamplers[] = {"halton",     "independent", "paddedsobol", "sobol",
                                           "stratified", "zsobol",      "pmj02bn"};
 constexpr std::string_view kCameras[] = {"perspective", "realistic", "orthographic", "spherical"};
-constexpr std::string_view kIntegrators[] = {"path", "volpath"};
+/// pbrt's, of all versions; what is not of path tracing becomes it.
+constexpr std::string_view kIntegrators[] = {"path",
+                                             "volpath",
+                                             "ambientocclusion",
+                                             "bdpt",
+                                             "function",
+                                             "lightpath",
+                                             "mlt",
+                                             "randomwalk",
+                                             "simplepath",
+                                             "sppm",
+                                             "whitted",
+                                             "simplevolpath",
+                                             "ao",
+                                             "directlighting",
+                                             "photonmap",
+                                             "igi",
+                                             "exphotonmap",
+                                             "irradiancecache",
+                                             "useprobes",
+                                             "diffuseprt",
+                                             "glossyprt",
+                                             "dipolesubsurface"};
+constexpr std::string_view kFilms[] = {"rgb", "gbuffer", "spectral"};
+constexpr std::string_view kSensors[] = {
+    "cie1931",       "canon_eos_100d",     "canon_eos_1dx_mkii", "canon_eos_200d",    "canon_eos_200d_mkii",
+    "canon_eos_5d",  "canon_eos_5d_mkii",  "canon_eos_5d_mkiii", "canon_eos_5d_mkiv", "canon_eos_5ds",
+    "canon_eos_m",   "hasselblad_l1d_20c", "nikon_d810",         "nikon_d850",        "sony_ilce_6400",
+    "sony_ilce_7m3", "sony_ilce_7rm3",     "sony_ilce_9"};
+/// Of a shutter that opens for an instant, relative to the time, at least 1 s.
+constexpr float kInstant = 1e-5f;
 
 /// Throws unless `kind` is one of `kinds`.
 void checkKind(std::string_view family, const std::string& kind, std::span<const std::string_view> kinds,
                const ParameterList& parameters) {
     if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
-        throw badInput(parameters.position(), "{} \"{}\" is not supported{}", family, printable(kind),
-                       didYouMean(kind, kinds));
+        throw unsupported(parameters.position(), "{} \"{}\" is not supported{}", family, printable(kind),
+                          didYouMean(kind, kinds));
 }
 
-Rect pixelBounds(const Film& film, ParameterList& parameters, Monitor& monitor) {
+Rect pixelBounds(const Film& film, ParameterList& parameters, Issues& issues) {
     const Rect whole{0, 0, film.xResolution, film.yResolution};
     const std::vector<int> bounds = parameters.integers("pixelbounds");
     if (bounds.empty()) return whole;
@@ -41,8 +72,7 @@ Rect pixelBounds(const Film& film, ParameterList& parameters, Monitor& monitor) 
     if (bounds.size() != 4) throw badInput(where, "'pixelbounds' needs four numbers: x0, x1, y0, y1");
     const Rect asked{bounds[0], bounds[2], bounds[1], bounds[3]};
     if (asked.intersect(whole) != asked)
-        monitor.warn(FileLocation(where).text() +
-                     ": 'pixelbounds' reach beyond the film and are clipped to it");
+        issues.note(where, "'pixelbounds' reach beyond the film and are clipped to it");
     return asked.intersect(whole);
 }
 
@@ -58,26 +88,45 @@ Rect cropped(const Film& film, const std::vector<float>& window, const Position&
             pixel(film.yResolution, std::max(window[2], window[3]))};
 }
 
-Film readFilm(const std::string& kind, ParameterList& parameters, float exposureTime, Monitor& monitor) {
-    checkKind("film", kind, std::array<std::string_view, 1>{"rgb"}, parameters);
+/// A measured sensor sees as the eye does, but for its white balance.
+glm::mat3 readSensor(ParameterList& parameters, Issues& issues) {
+    const std::string sensor = parameters.text("sensor").value_or(std::string(kSensors[0]));
+    const Position where = parameters.positionOf("sensor");
+    if (std::find(std::begin(kSensors), std::end(kSensors), sensor) == std::end(kSensors))
+        throw badInput(where, "unknown sensor \"{}\"{}", printable(sensor), didYouMean(sensor, kSensors));
+    float kelvin = parameters.number("whitebalance", 0, {0, 25000});
+    if (sensor != kSensors[0]) {
+        issues.note(where,
+                    fmt::format("sensor \"{}\" is read as \"cie1931\" with its white balance", sensor));
+        if (kelvin == 0) kelvin = 6500;
+    }
+    if (kelvin == 0) return glm::mat3(1);
+    if (kelvin < 500)
+        throw badInput(parameters.positionOf("whitebalance"),
+                       "'whitebalance' is {}, but must be 0 or at least 500", kelvin);
+    return whiteBalance(illuminantWhite(double(kelvin)));
+}
+
+Film readFilm(const std::string& kind, ParameterList& parameters, float exposureTime, Issues& issues) {
+    checkKind("film", kind, kFilms, parameters);
+    if (kind != "rgb")
+        issues.note(parameters.position(), fmt::format("film \"{}\" is read as \"rgb\"", kind));
     Film film;
     film.xResolution = parameters.integer("xresolution", 1280, 1, kMaxResolution);
     film.yResolution = parameters.integer("yresolution", 720, 1, kMaxResolution);
     if (std::int64_t(film.xResolution) * film.yResolution > kMaxPixels)
         throw badInput(parameters.position(), "{}x{} pixels are more than the limit of {}", film.xResolution,
                        film.yResolution, kMaxPixels);
-    film.crop = pixelBounds(film, parameters, monitor);
+    film.crop = pixelBounds(film, parameters, issues);
     if (const std::vector<float> window = parameters.numbers("cropwindow"); !window.empty())
         film.crop = cropped(film, window, parameters.positionOf("cropwindow"));
     if (film.crop.empty()) throw badInput(parameters.position(), "the crop leaves no pixel of the film");
     film.filename = parameters.text("filename").value_or(film.filename);
-    parameters.choice("sensor", "cie1931", {"cie1931"});
-    if (parameters.number("whitebalance", 0) != 0)
-        throw badInput(parameters.positionOf("whitebalance"), "'whitebalance' other than 0 is not supported");
+    film.whiteBalance = readSensor(parameters, issues);
     film.imagingRatio = exposureTime * parameters.number("iso", 100, kPositive) / 100;
     film.maxComponentValue = parameters.number("maxcomponentvalue", kPositive).value_or(0);
     film.diagonalMm = parameters.number("diagonal", 35, kPositive);
-    parameters.ignore({"savefp16"});
+    parameters.ignore({"savefp16", "coordinatesystem", "nbuckets", "lambdamin", "lambdamax"});
     parameters.finish();
     return film;
 }
@@ -112,14 +161,24 @@ PixelFilter readFilter(const std::string& kind, ParameterList& parameters) {
     return filter;
 }
 
-PerspectiveCamera readShutter(const std::string& kind, ParameterList& parameters) {
+/// `exposureTime` in seconds.
+PerspectiveCamera readShutter(const std::string& kind, ParameterList& parameters, float& exposureTime,
+                              Issues& issues) {
     checkKind("camera", kind, kCameras, parameters);
     PerspectiveCamera camera;
     camera.shutterOpen = parameters.number("shutteropen", 0);
     camera.shutterClose = parameters.number("shutterclose", 1);
-    if (camera.shutterClose <= camera.shutterOpen)
+    exposureTime = camera.shutterClose - camera.shutterOpen;
+    if (exposureTime < 0)
         throw badInput(parameters.position(),
-                       "the shutter never opens: 'shutterclose' must be after 'shutteropen'");
+                       "the shutter closes before it opens: 'shutterclose' must be after "
+                       "'shutteropen'");
+    if (exposureTime == 0) {
+        issues.note(parameters.position(),
+                    "the shutter is never open; the picture is that of the instant, exposed for 1 s");
+        exposureTime = 1;
+        camera.shutterClose += kInstant * std::max(1.f, std::abs(camera.shutterOpen));
+    }
     return camera;
 }
 
@@ -146,23 +205,37 @@ void readSpherical(PerspectiveCamera& camera, ParameterList& parameters) {
 }
 
 RealisticCamera readRealistic(ParameterList& parameters, const SceneFiles& files, const std::string& path,
-                              Monitor& monitor) {
+                              Issues& issues) {
     RealisticCamera camera;
     camera.lens = readLens(path, parameters.positionOf("lensfile"));
     camera.aperture = readShape(parameters, files);
     camera.apertureDiameterMm = parameters.number("aperturediameter", 1, kPositive);
-    camera.focusDistance = parameters.number("focusdistance", 10, kPositive);
     camera.focusLocation = parameters.positionOf("focusdistance");
+    camera.focusDistance = parameters.number("focusdistance", 10, kPositive);
+    if (const std::optional<float> distance = parameters.number("filmdistance", kPositive)) {
+        camera.filmDistanceMm = double(*distance);
+        camera.focusLocation = parameters.positionOf("filmdistance");
+    }
     if (const double widest = camera.lens.surfaces[camera.lens.stop].diameter;
         camera.apertureDiameterMm > widest) {
         if (camera.apertureDiameterMm > double(float(widest)))
-            monitor.warn(
-                fmt::format("{}: 'aperturediameter' is {} mm, but the stop of {} opens to {} mm only",
-                            FileLocation(parameters.positionOf("aperturediameter")).text(),
-                            camera.apertureDiameterMm, path, widest));
+            issues.note(parameters.positionOf("aperturediameter"),
+                        fmt::format("'aperturediameter' is {} mm, but the stop of {} opens to {} mm only",
+                                    camera.apertureDiameterMm, path, widest));
         camera.apertureDiameterMm = widest;
     }
     return camera;
+}
+
+/// Cameras of pbrt-v2 that are given the distance of their film have millimetres as units, and the front of
+/// their lens at the origin.
+void placeByFront(const RealisticCamera& camera, MovingTransform& worldFromCamera) {
+    double length = *camera.filmDistanceMm;
+    for (std::size_t i = 0; i + 1 < camera.lens.surfaces.size(); ++i)
+        length += camera.lens.surfaces[i].thickness;
+    const glm::dmat4 frontFromFilm =
+        glm::scale(glm::translate(glm::dmat4(1), {0, 0, -length}), glm::dvec3(1000));
+    for (glm::dmat4& matrix : worldFromCamera.at) matrix = matrix * frontFromFilm;
 }
 
 /// The screen window: given, or [-1, 1] along the shorter axis.
@@ -193,12 +266,16 @@ int readSampler(const std::string& kind, ParameterList& parameters) {
     return samples;
 }
 
-int readIntegrator(const std::string& kind, ParameterList& parameters) {
+int readIntegrator(const std::string& kind, ParameterList& parameters, Issues& issues) {
     checkKind("integrator", kind, kIntegrators, parameters);
     const int maxDepth = parameters.integer("maxdepth", 5, 0, kMaxPathDepth);
+    if (kind != "path" && kind != "volpath") {
+        issues.note(parameters.position(), fmt::format("integrator \"{}\" is read as \"path\"", kind));
+        parameters.ignoreRest();
+    }
     parameters.ignore({"lightsampler"});
     if (parameters.flag("regularize", false))
-        throw badInput(parameters.positionOf("regularize"), "'regularize' is not supported");
+        issues.note(parameters.positionOf("regularize"), "'regularize' is ignored: nothing is blurred");
     parameters.finish();
     return maxDepth;
 }
@@ -211,28 +288,22 @@ void OptionBlock::set(const std::string& directive, const std::string& kind, Par
 
 OptionBlock::Entity& OptionBlock::entity(const std::string& directive, const std::string& defaultKind) {
     const auto entry = entities_.try_emplace(
-        directive,
-        Entity{defaultKind, ParameterList({}, fmt::format("{} \"{}\"", directive, defaultKind), {})});
+        directive, Entity{defaultKind,
+                          ParameterList({}, fmt::format("{} \"{}\"", directive, defaultKind), {}, issues_)});
     return entry.first->second;
 }
 
-void OptionBlock::resolve(Scene& scene, const SceneFiles& files, Monitor& monitor) {
-    Entity& camera = entity("Camera", "perspective");
-    Entity& film = entity("Film", "rgb");
-    Entity& filter = entity("PixelFilter", "gaussian");
-    Entity& sampler = entity("Sampler", "zsobol");
-    Entity& integrator = entity("Integrator", "volpath");
-    scene.camera = readShutter(camera.kind, camera.parameters);
-    scene.camera.worldFromCamera = overShutter(
-        worldFromCamera_, cameraTimes_, double(scene.camera.shutterOpen), double(scene.camera.shutterClose));
-    scene.film =
-        readFilm(film.kind, film.parameters, scene.camera.shutterClose - scene.camera.shutterOpen, monitor);
+void OptionBlock::resolveCamera(Scene& scene, Entity& camera, const SceneFiles& files) {
     if (camera.kind == "realistic") {
         const std::optional<std::string> lens = camera.parameters.text("lensfile");
         if (!lens)
             throw badInput(camera.parameters.position(), "Camera \"realistic\" needs \"string lensfile\"");
-        scene.realistic = readRealistic(camera.parameters, files, files.resolve(*lens), monitor);
+        scene.realistic = readRealistic(camera.parameters, files, files.resolve(*lens), issues_);
         scene.files.push_back(scene.realistic->lens.path);
+        if (scene.realistic->filmDistanceMm) {
+            scene.film.diagonalMm = camera.parameters.number("filmdiag", scene.film.diagonalMm, kPositive);
+            placeByFront(*scene.realistic, scene.camera.worldFromCamera);
+        }
     } else if (camera.kind == "spherical") {
         readSpherical(scene.camera, camera.parameters);
     } else {
@@ -241,9 +312,29 @@ void OptionBlock::resolve(Scene& scene, const SceneFiles& files, Monitor& monito
         readScreen(scene.camera, camera.parameters, scene.film);
     }
     camera.parameters.finish();
-    scene.filter = readFilter(filter.kind, filter.parameters);
-    scene.pixelSamples = readSampler(sampler.kind, sampler.parameters);
-    scene.maxDepth = readIntegrator(integrator.kind, integrator.parameters);
+}
+
+void OptionBlock::resolve(Scene& scene, const SceneFiles& files) {
+    Entity& camera = entity("Camera", "perspective");
+    Entity& film = entity("Film", "rgb");
+    Entity& filter = entity("PixelFilter", "gaussian");
+    Entity& sampler = entity("Sampler", "zsobol");
+    Entity& integrator = entity("Integrator", "volpath");
+    float exposureTime = 1;
+    const bool hasShutter = issues_.attempt(
+        "", [&] { scene.camera = readShutter(camera.kind, camera.parameters, exposureTime, issues_); });
+    scene.camera.worldFromCamera = overShutter(
+        worldFromCamera_, cameraTimes_, double(scene.camera.shutterOpen), double(scene.camera.shutterClose));
+    issues_.attempt("the film is \"rgb\" of 1280x720",
+                    [&] { scene.film = readFilm(film.kind, film.parameters, exposureTime, issues_); });
+    if (hasShutter) issues_.attempt("", [&] { resolveCamera(scene, camera, files); });
+    issues_.attempt("the filter is \"gaussian\"",
+                    [&] { scene.filter = readFilter(filter.kind, filter.parameters); });
+    issues_.attempt("16 samples are taken of a pixel",
+                    [&] { scene.pixelSamples = readSampler(sampler.kind, sampler.parameters); });
+    issues_.attempt("the integrator is \"path\"", [&] {
+        scene.maxDepth = readIntegrator(integrator.kind, integrator.parameters, issues_);
+    });
 }
 
 } // namespace slant

@@ -8,13 +8,15 @@
 
 namespace slant {
 
-class Monitor;
 class SceneFiles;
 
 /// Keeps the directives (the last of each kind counts, as in pbrt) until all are known, since the camera's
 /// defaults depend on the film's size and the film's exposure on the camera's shutter.
 class OptionBlock {
 public:
+    /// `issues` must outlive this.
+    explicit OptionBlock(Issues& issues) : issues_(issues) {}
+
     /// `directive` is Film, PixelFilter, Camera, Sampler or Integrator.
     void set(const std::string& directive, const std::string& kind, ParameterList parameters);
     /// `times` of the scene, at which the camera has the two transforms.
@@ -23,8 +25,8 @@ public:
         cameraTimes_ = times;
     }
 
-    /// Fills the scene's part of it, with pbrt's defaults. Throws Error(badInput).
-    void resolve(Scene& scene, const SceneFiles& files, Monitor& monitor);
+    /// Fills the scene's part of it, with pbrt's defaults.
+    void resolve(Scene& scene, const SceneFiles& files);
 
 private:
     struct Entity {
@@ -33,7 +35,9 @@ private:
     };
 
     Entity& entity(const std::string& directive, const std::string& defaultKind);
+    void resolveCamera(Scene& scene, Entity& camera, const SceneFiles& files);
 
+    Issues& issues_;
     std::map<std::string, Entity> entities_;
     MovingTransform worldFromCamera_;
     std::array<double, 2> cameraTimes_{0, 1};

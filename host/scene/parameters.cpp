@@ -20,25 +20,21 @@ struct Type {
 constexpr Type kTypes[] = {
     {"bool", Values::flags, 1},        {"float", Values::numbers, 1},     {"integer", Values::integers, 1},
     {"point2", Values::numbers, 2},    {"vector2", Values::numbers, 2},   {"point3", Values::numbers, 3},
-    {"vector3", Values::numbers, 3},   {"normal", Values::numbers, 3},    {"normal3", Values::numbers, 3},
+    {"vector3", Values::numbers, 3},   {"normal", Values::numbers, 3},    {"xyz", Values::numbers, 3},
     {"string", Values::strings, 1},    {"texture", Values::strings, 1},   {"rgb", Values::numbers, 3},
     {"spectrum", Values::spectrum, 2}, {"blackbody", Values::numbers, 1},
 };
 
-/// Types of pbrt-v3 files and what they are called now.
+/// Types of older files, and other spellings, and what they are called now.
 constexpr std::array<std::string_view, 2> kRenamed[] = {
-    {"color", "rgb"}, {"point", "point3"}, {"vector", "vector3"}, {"xyz", "rgb"}};
+    {"color", "rgb"}, {"point", "point3"}, {"vector", "vector3"}, {"normal3", "normal"}};
 
 const Type& typeOf(const std::string& name, const Position& position) {
     for (const Type& type : kTypes)
         if (type.name == name) return type;
-    for (const auto& [old, current] : kRenamed)
-        if (name == old)
-            throw badInput(position, "parameter type '{}' is not from pbrt-v4; did you mean '{}'?", name,
-                           current);
     std::vector<std::string_view> names;
     for (const Type& type : kTypes) names.push_back(type.name);
-    throw badInput(position, "unknown parameter type '{}'{}", printable(name), didYouMean(name, names));
+    throw syntaxError(position, "unknown parameter type '{}'{}", printable(name), didYouMean(name, names));
 }
 
 /// Splits "type name" of a declaration.
@@ -51,8 +47,8 @@ Parameter declared(const Token& token) {
     const auto [typeFirst, typeEnd] = word(0);
     const auto [nameFirst, nameEnd] = word(typeEnd);
     if (nameFirst == text.size() || word(nameEnd).first != text.size())
-        throw badInput(token.position, "expected a parameter such as \"float radius\", found {}",
-                       token.shown());
+        throw syntaxError(token.position, "expected a parameter such as \"float radius\", found {}",
+                          token.shown());
     Parameter parameter;
     parameter.type = text.substr(typeFirst, typeEnd - typeFirst);
     parameter.name = text.substr(nameFirst, nameEnd - nameFirst);
@@ -61,9 +57,10 @@ Parameter declared(const Token& token) {
 }
 
 bool flagOf(const Token& token) {
-    if (token.kind == TokenKind::word && (token.text == "true" || token.text == "false"))
-        return token.text == "true";
-    throw badInput(token.position, "expected true or false (without quotes), found {}", token.shown());
+    // In quotes in older files.
+    const bool isText = token.kind == TokenKind::word || token.kind == TokenKind::string;
+    if (isText && (token.text == "true" || token.text == "false")) return token.text == "true";
+    throw syntaxError(token.position, "expected true or false, found {}", token.shown());
 }
 
 void appendValue(Parameter& parameter, Values values, const Token& token) {
@@ -92,24 +89,33 @@ void appendValue(Parameter& parameter, Values values, const Token& token) {
 
 Parameter readParameter(Tokenizer& tokens) {
     Parameter parameter = declared(tokens.next());
+    for (const auto& [other, current] : kRenamed)
+        if (parameter.type == other) parameter.type = current;
     const Type& type = typeOf(parameter.type, parameter.position);
-    if (parameter.type == "normal3") parameter.type = "normal"; // two spellings of one type
     Token token = tokens.next();
     if (token.kind == TokenKind::open) {
         const Position opened = token.position;
         for (token = tokens.next(); token.kind != TokenKind::close; token = tokens.next()) {
-            if (token.kind == TokenKind::end) throw badInput(opened, "this '[' is never closed");
+            if (token.kind == TokenKind::end) throw syntaxError(opened, "this '[' is never closed");
             appendValue(parameter, type.values, token);
         }
     } else {
         appendValue(parameter, type.values, token);
     }
     if (parameter.numbers.empty() && parameter.strings.empty() && parameter.flags.empty())
-        throw badInput(parameter.position, "parameter '{}' has no values", printable(parameter.name));
+        throw syntaxError(parameter.position, "parameter '{}' has no values", printable(parameter.name));
     if (parameter.numbers.size() % type.perItem != 0)
-        throw badInput(parameter.position, "'{}' has {} numbers, not a multiple of {} as type {} needs",
-                       printable(parameter.name), parameter.numbers.size(), type.perItem, type.name);
+        throw syntaxError(parameter.position, "'{}' has {} numbers, not a multiple of {} as type {} needs",
+                          printable(parameter.name), parameter.numbers.size(), type.perItem, type.name);
     return parameter;
+}
+
+void becomeRgb(Parameter& xyz) {
+    xyz.type = "rgb";
+    for (std::size_t i = 0; i < xyz.numbers.size(); i += 3) {
+        const glm::dvec3 rgb = rec709FromXyz({xyz.numbers[i], xyz.numbers[i + 1], xyz.numbers[i + 2]});
+        for (int c = 0; c < 3; ++c) xyz.numbers[i + std::size_t(c)] = std::max(rgb[c], 0.0);
+    }
 }
 
 std::string joined(ParameterList::Types words) {
@@ -120,16 +126,20 @@ std::string joined(ParameterList::Types words) {
 
 } // namespace
 
-ParameterVector readParameters(Tokenizer& tokens) {
+ParameterVector readParameters(Tokenizer& tokens, const ColourSpace* colourSpace) {
     ParameterVector parameters;
-    while (tokens.peek().kind == TokenKind::string)
-        parameters.push_back(std::make_shared<const Parameter>(readParameter(tokens)));
+    while (tokens.peek().kind == TokenKind::string) {
+        Parameter parameter = readParameter(tokens);
+        if (parameter.type == "rgb") parameter.colourSpace = colourSpace;
+        if (parameter.type == "xyz") becomeRgb(parameter);
+        parameters.push_back(std::make_shared<const Parameter>(std::move(parameter)));
+    }
     return parameters;
 }
 
-ParameterList::ParameterList(Position position, std::string subject, ParameterVector own,
+ParameterList::ParameterList(Position position, std::string subject, ParameterVector own, Issues& issues,
                              const ParameterVector& inherited)
-    : position_(position), subject_(std::move(subject)) {
+    : position_(position), subject_(std::move(subject)), issues_(&issues) {
     for (auto parameter = own.rbegin(); parameter != own.rend(); ++parameter)
         entries_.push_back({std::move(*parameter), false});
     for (auto parameter = inherited.rbegin(); parameter != inherited.rend(); ++parameter)
@@ -251,13 +261,21 @@ void ParameterList::ignore(Types names) {
     for (const std::string_view name : names) asked_.emplace_back(name);
 }
 
-void ParameterList::finish() const {
+void ParameterList::ignoreRest() {
+    for (const Entry& entry : entries_) asked_.push_back(entry.parameter->name);
+}
+
+void ParameterList::finish() {
     for (auto entry = entries_.rbegin(); entry != entries_.rend(); ++entry) {
         const Parameter& parameter = *entry->parameter;
         if (entry->inherited || asked(parameter.name)) continue;
-        const std::vector<std::string_view> names(asked_.begin(), asked_.end());
-        throw badInput(parameter.position, "{} has no parameter '{}', or none that is supported{}", subject_,
-                       printable(parameter.name), didYouMean(parameter.name, names));
+        std::vector<std::string_view> names; // what is given, too, was not meant
+        for (const std::string& name : asked_)
+            if (std::none_of(entries_.begin(), entries_.end(),
+                             [&](const Entry& other) { return other.parameter->name == name; }))
+                names.push_back(name);
+        report(unsupported(parameter.position, "{} has no parameter '{}', or none that is supported{}",
+                           subject_, printable(parameter.name), didYouMean(parameter.name, names)));
     }
 }
 

@@ -1,6 +1,8 @@
 // Parameter lists of directives: `"type name" values...`, typed look-ups with defaults, and the rule that an
-// unused parameter is an error.
+// unused parameter is not supported.
 #pragma once
+#include "scene/colour_space.h"
+#include "scene/issues.h"
 #include "scene/tokenizer.h"
 
 #include <glm/glm.hpp>
@@ -17,18 +19,19 @@ namespace slant {
 /// One parameter as written. Values fit the type (checked when read): `strings` for string, texture and
 /// named spectra, `flags` for bool, else `numbers`, a whole number of items (3 a point3, ...), never none.
 struct Parameter {
-    std::string type, name;
-    Position position;
-    std::vector<double> numbers;
-    std::vector<std::string> strings;
-    std::vector<bool> flags;
+    std::string type{}, name{};
+    Position position{};
+    std::vector<double> numbers{};
+    std::vector<std::string> strings{};
+    std::vector<bool> flags{};
+    const ColourSpace* colourSpace = nullptr; ///< of an rgb; Rec.709 if null
 };
 
 /// Shared, so that attribute defaults are not copied for each shape.
 using ParameterVector = std::vector<std::shared_ptr<const Parameter>>;
 
-/// Reads what follows a directive up to the next word. Throws Error(badInput).
-ParameterVector readParameters(Tokenizer& tokens);
+/// Reads what follows a directive up to the next word. Throws SyntaxError.
+ParameterVector readParameters(Tokenizer& tokens, const ColourSpace* colourSpace);
 
 /// Values that a number may have.
 struct Range {
@@ -46,8 +49,8 @@ class ParameterList {
 public:
     using Types = std::initializer_list<std::string_view>;
 
-    /// `subject` names the owner in messages, e.g. `Shape "sphere"`.
-    ParameterList(Position position, std::string subject, ParameterVector own,
+    /// `subject` names the owner in messages, e.g. `Shape "sphere"`. `issues` must outlive the list.
+    ParameterList(Position position, std::string subject, ParameterVector own, Issues& issues,
                   const ParameterVector& inherited = {});
 
     const Position& position() const { return position_; }
@@ -75,8 +78,16 @@ public:
 
     /// Accepts parameters that cannot change the picture.
     void ignore(Types names);
-    /// Throws at the first unused parameter.
-    void finish() const;
+    /// Accepts all others.
+    void ignoreRest();
+    /// Adds what is not supported to the issues, and lets its owner go on without it.
+    void report(const Unsupported& error) {
+        issues_->attempt("it is ignored", [&] { throw error; });
+    }
+    /// A warning about a parameter.
+    void note(std::string_view name, const std::string& message) { issues_->note(positionOf(name), message); }
+    /// Reports the parameters that nobody asked for.
+    void finish();
 
 private:
     struct Entry {
@@ -89,6 +100,7 @@ private:
 
     Position position_;
     std::string subject_;
+    Issues* issues_;
     std::vector<Entry> entries_; // in order of precedence
     std::vector<std::string> asked_;
 };

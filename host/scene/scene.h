@@ -40,12 +40,13 @@ struct PixelFilter {
     float tau = 3;                  ///< sinc (Lanczos-windowed)
 };
 
-/// Film "rgb". Radiance is multiplied by `imagingRatio` (pbrt's exposure, iso, sensor "cie1931").
+/// Film "rgb". Radiance is multiplied by `imagingRatio` (pbrt's exposure, iso) and by `whiteBalance`.
 struct Film {
     int xResolution = 1280, yResolution = 720;
     Rect crop{0, 0, 1280, 720}; ///< pixels to render, inside the resolution
     std::string filename = "pbrt.exr";
     float imagingRatio = 1;
+    glm::mat3 whiteBalance{1};
     float maxComponentValue = 0; ///< samples are scaled down to it; 0 = no limit
     float diagonalMm = 35;       ///< for realistic cameras
 };
@@ -84,16 +85,32 @@ struct LensPrescription {
 /// Camera "realistic": a lens in front of the film, which is the plane z = 0 of camera space, in metres.
 struct RealisticCamera {
     LensPrescription lens;
-    double apertureDiameterMm = 1; ///< of the stop, at most what the lens has
-    double focusDistance = 10;     ///< of the plane in focus, from the film, in metres
-    FileLocation focusLocation;    ///< for errors
-    ApertureShape aperture;        ///< of the stop
+    double apertureDiameterMm = 1;          ///< of the stop, at most what the lens has
+    double focusDistance = 10;              ///< of the plane in focus, from the film, in metres
+    FileLocation focusLocation;             ///< for errors
+    ApertureShape aperture;                 ///< of the stop
+    std::optional<double> filmDistanceMm{}; ///< of the film from the last surface, instead of the focus
 };
 
 // ---------------------------------------------------------------- textures, materials
 
-enum class TextureKind { constant, scale, mix, checkerboard, imagemap };
-enum class TextureMapping { uv, planar };
+enum class TextureKind {
+    constant,
+    scale,
+    product, ///< of two colours; of older files only
+    mix,
+    directionMix,
+    bilerp,
+    checkerboard,
+    dots,
+    imagemap,
+    fbm,
+    wrinkled,
+    windy,
+    marble
+};
+/// To two coordinates, or (space) to three.
+enum class TextureMapping { uv, planar, spherical, cylindrical, space };
 enum class WrapMode { repeat, black, clamp, octahedralSphere };
 enum class TexelFilter {
     point,
@@ -105,17 +122,21 @@ enum class TexelFilter {
 struct Texture {
     TextureKind kind = TextureKind::constant;
     glm::vec3 value{1}; ///< constant
-    std::array<int, 3> child{-1, -1,
-                             -1}; ///< scale: tex, scale; mix: tex1, tex2, amount; checkerboard: tex1, tex2
+    /// scale, product: tex, scale; mix: tex1, tex2, amount; directionMix, checkerboard: tex1, tex2; dots:
+    /// inside, outside; bilerp: v00, v01, v10, v11
+    std::array<int, 4> child{-1, -1, -1, -1};
     TextureMapping mapping = TextureMapping::uv;
     glm::vec2 uvScale{1, 1}, uvDelta{0, 0};         ///< uv: st = uvScale * uv + uvDelta
-    glm::dmat4 textureFromWorld{1.0};               ///< planar: applied to the world position before v1, v2
+    glm::dmat4 textureFromWorld{1.0};               ///< all but uv: applied to the world position first
     glm::vec3 planarV1{1, 0, 0}, planarV2{0, 1, 0}; ///< planar: st = (dot(p, v1), dot(p, v2)) + uvDelta
     int imageIndex = -1; ///< imagemap; texels are linear, colour encoding already undone
     WrapMode wrap = WrapMode::repeat;
     TexelFilter filter = TexelFilter::bilinear;
-    float scale = 1;     ///< imagemap
-    bool invert = false; ///< imagemap: value -> 1 - value
+    float scale = 1;                          ///< imagemap; marble: of the position
+    bool invert = false;                      ///< imagemap: value -> 1 - value
+    int octaves = 8;                          ///< fbm, wrinkled, marble
+    float roughness = 0.5f, variation = 0.2f; ///< fbm, wrinkled, marble; marble
+    glm::vec3 direction{0, 1, 0};             ///< directionMix: unit, in the world
 };
 
 enum class MaterialKind {

@@ -3,6 +3,7 @@
 #include "base/monitor.h"
 #include "base/read_file.h"
 #include "scene/image_files.h"
+#include "scene/latlong.h"
 #include "scene/ply.h"
 
 #include <filesystem>
@@ -91,6 +92,26 @@ int SceneFiles::image(const std::string& filename, ColourEncoding encoding, bool
     return entry->second;
 }
 
+int SceneFiles::environment(const std::string& filename, const Position& where) {
+    const std::string path = resolve(filename);
+    if (const auto known = environments_.find(path); known != environments_.end()) return known->second;
+    int index = image(filename, {}, false, where);
+    const Image& file = scene_.images[std::size_t(index)];
+    if (file.channelCount() != 3)
+        throw badInput(where, "the image of an infinite light must have channels R, G and B");
+    if (file.width() == 2 * file.height()) {
+        scene_.images.push_back(octahedralOfLatLong(file));
+        index = int(scene_.images.size()) - 1;
+    } else if (file.width() != file.height()) {
+        throw badInput(
+            where,
+            "the image of an infinite light must be square (equal-area octahedral), or twice as wide as "
+            "high (latitude and longitude), but {} is {}x{}",
+            filename, file.width(), file.height());
+    }
+    return environments_[path] = index;
+}
+
 ApertureShape SceneFiles::aperture(const std::string& text, const Position& where) const {
     ApertureShape shape = readAperture(text, directory_, where);
     if (shape.name == "image") scene_.files.push_back(resolve(text));
@@ -100,11 +121,17 @@ ApertureShape SceneFiles::aperture(const std::string& text, const Position& wher
 std::vector<int> SceneFiles::plyMeshes(const std::string& filename, const Position& where) {
     const std::string path = resolve(filename);
     if (const auto known = meshes_.find(path); known != meshes_.end()) return known->second;
-    PlyMeshes ply = parsePly(readBytes(path, where), path);
+    const std::string bytes = readBytes(path, where);
+    PlyMeshes ply;
+    try {
+        ply = parsePly(bytes, path);
+    } catch (const Error& error) {
+        throw Error(error.code(), where, error.what());
+    }
     scene_.files.push_back(path);
     if (ply.skippedFaces > 0)
-        monitor_.warn(fmt::format("{}: {} faces have neither 3 nor 4 vertices and are left out", path,
-                                  ply.skippedFaces));
+        monitor_.warn(fmt::format("{}: {}: {} faces have neither 3 nor 4 vertices and are left out",
+                                  FileLocation(where).text(), path, ply.skippedFaces));
     std::vector<int> indices;
     for (std::optional<Mesh>* mesh : {&ply.triangles, &ply.patches})
         if (*mesh) {

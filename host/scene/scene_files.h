@@ -24,7 +24,7 @@ struct ColourEncoding {
         linear,
         srgb,
         gamma
-    } kind = Kind::automatic; ///< automatic: PNG sRGB, EXR linear
+    } kind = Kind::automatic; ///< automatic: integers sRGB, floats linear
     float exponent = 1;       ///< gamma
     auto operator<=>(const ColourEncoding&) const = default;
 };
@@ -43,6 +43,10 @@ public:
     /// Index of the image in Scene::images: linear, RGB, or with `average` the mean of the channels.
     int image(const std::string& filename, ColourEncoding encoding, bool average, const Position& where);
 
+    /// Index of the image of an infinite light: equal-area octahedral, made so if it is twice as wide as
+    /// high.
+    int environment(const std::string& filename, const Position& where);
+
     /// The shape of that name, or that of an image file.
     ApertureShape aperture(const std::string& text, const Position& where) const;
 
@@ -56,6 +60,7 @@ private:
     Scene& scene_;
     Monitor& monitor_;
     std::map<ImageKey, int> images_;
+    std::map<std::string, int> environments_;
     std::map<std::string, std::vector<int>> meshes_;
 };
 

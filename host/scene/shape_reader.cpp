@@ -60,6 +60,8 @@ int readMesh(Mesh::Kind kind, ParameterList& parameters, Scene& scene) {
     checkSize(parameters, "N", mesh.normals.size(), mesh.positions.size());
     checkSize(parameters, "uv", mesh.uvs.size(), mesh.positions.size());
     parameters.ignore({"faceIndices"}); // of Ptex textures only
+    if (!parameters.triples("S", "vector3").empty())
+        parameters.note("S", "tangents 'S' are ignored; they only turn highlights that are not round");
     scene.meshes.push_back(std::move(mesh));
     return int(scene.meshes.size()) - 1;
 }
@@ -151,8 +153,8 @@ std::vector<Shape> readShapes(const std::string& kind, ParameterList& parameters
     } else if (kind == "disk") {
         shapes = {readDisk(parameters)};
     } else {
-        throw badInput(parameters.position(), "shape \"{}\" is not supported{}", printable(kind),
-                       didYouMean(kind, kKinds));
+        throw unsupported(parameters.position(), "shape \"{}\" is not supported{}", printable(kind),
+                          didYouMean(kind, kKinds));
     }
     parameters.finish();
     for (Shape& shape : shapes) {

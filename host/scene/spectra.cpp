@@ -1,10 +1,11 @@
 #include "scene/spectra.h"
 
 #include "base/suggest.h"
+#include "scene/scene_files.h"
 #include "scene/spelling.h"
 
 #include <algorithm>
-#include <cmath>
+#include <filesystem>
 
 namespace slant {
 namespace {
@@ -38,58 +39,110 @@ constexpr NamedGlass kGlasses[] = {
     {"glass-F5", 1.6727f},  {"glass-F10", 1.7283f},   {"glass-F11", 1.7847f},
 };
 
-constexpr double kVisibleFirst = 360, kVisibleLast = 830; // nm, pbrt's range
+/// Chromaticities of CIE's illuminants, and of ACES' white.
+struct Illuminant {
+    std::string_view name;
+    glm::dvec2 white;
+};
+constexpr Illuminant kIlluminants[] = {
+    {"stdillum-A", {0.44757, 0.40745}},   {"stdillum-D50", {0.34567, 0.35850}},
+    {"stdillum-F1", {0.31310, 0.33727}},  {"stdillum-F2", {0.37208, 0.37529}},
+    {"stdillum-F3", {0.40910, 0.39430}},  {"stdillum-F4", {0.44018, 0.40329}},
+    {"stdillum-F5", {0.31379, 0.34531}},  {"stdillum-F6", {0.37790, 0.38835}},
+    {"stdillum-F7", {0.31292, 0.32933}},  {"stdillum-F8", {0.34588, 0.35875}},
+    {"stdillum-F9", {0.37417, 0.37281}},  {"stdillum-F10", {0.34609, 0.35986}},
+    {"stdillum-F11", {0.38052, 0.37713}}, {"stdillum-F12", {0.43695, 0.40441}},
+    {"illum-acesD60", {0.32168, 0.33767}}};
 
-/// pbrt takes wavelength-value pairs; only those with one value have an exact RGB value here.
-glm::vec3 sampledSpectrum(const Parameter& parameter, SpectrumUse use) {
-    const std::vector<double>& pairs = parameter.numbers;
-    bool constant = use != SpectrumUse::illuminant && pairs[0] <= kVisibleFirst &&
-                    pairs[pairs.size() - 2] >= kVisibleLast;
-    for (std::size_t i = 2; constant && i < pairs.size(); i += 2)
-        constant = pairs[i] > pairs[i - 2] && pairs[i + 1] == pairs[1];
-    if (!constant)
-        throw badInput(parameter.position,
-                       "'{}': spectra that vary over 360 to 830 nm are not supported; give \"rgb {}\"",
-                       parameter.name, parameter.name);
-    return glm::vec3(float(pairs[1]));
+std::optional<glm::vec3> illuminantRgb(std::string_view name) {
+    if (name == "stdillum-D65") return glm::vec3(1); // the white of Rec.709
+    for (const auto& [known, xy] : kIlluminants)
+        if (known == name) return rec709FromXyz({xy.x / xy.y, 1, (1 - xy.x - xy.y) / xy.y});
+    return {};
+}
+
+std::vector<std::string_view> knownNames(SpectrumUse use) {
+    std::vector<std::string_view> names;
+    if (use == SpectrumUse::illuminant) {
+        names.push_back("stdillum-D65");
+        for (const Illuminant& illuminant : kIlluminants) names.push_back(illuminant.name);
+    } else {
+        for (const NamedColour& metal : kMetals) names.push_back(metal.name);
+    }
+    return names;
+}
+
+/// Index of refraction at the line that catalogues give it for.
+constexpr double kHeliumLineNm = 587.6;
+
+glm::vec3 sampledRgb(const SampledSpectrum& spectrum, SpectrumUse use) {
+    const auto function = [&](double nm) { return spectrum.at(nm); };
+    if (use == SpectrumUse::illuminant) return glm::max(lightRgb(function), 0.f);
+    if (spectrum.isConstant()) return glm::vec3(float(spectrum.at(kVisibleFirst)));
+    const glm::vec3 rgb = glm::max(reflectanceRgb(function), 0.f);
+    return use == SpectrumUse::albedo ? glm::min(rgb, 1.f) : rgb;
 }
 
 glm::vec3 namedSpectrum(const Parameter& parameter, SpectrumUse use) {
     const std::string& name = parameter.strings[0];
     if (parameter.strings.size() != 1)
         throw badInput(parameter.position, "'{}' must have one value", parameter.name);
-    std::vector<std::string_view> known;
-    if (use == SpectrumUse::illuminant) {
-        if (name == "stdillum-D65") return glm::vec3(1); // the white of Rec.709
-        known.push_back("stdillum-D65");
-    } else {
-        if (const std::optional<glm::vec3> metal = metalSpectrum(name)) return *metal;
-        for (const NamedColour& metal : kMetals) known.push_back(metal.name);
+    const std::optional<glm::vec3> known =
+        use == SpectrumUse::illuminant ? illuminantRgb(name) : metalSpectrum(name);
+    if (known) return glm::max(*known, 0.f);
+    throw unsupported(parameter.position, "'{}': spectrum \"{}\" is not supported here; give \"rgb {}\"{}",
+                      parameter.name, printable(name), parameter.name, didYouMean(name, knownNames(use)));
+}
+
+bool isNamedSpectrum(std::string_view name) {
+    return metalSpectrum(name) || illuminantRgb(name) ||
+           std::any_of(std::begin(kGlasses), std::end(kGlasses),
+                       [&](const NamedGlass& glass) { return glass.name == name; });
+}
+
+/// Older files name the metals by files that came with pbrt: "spds/metals/Au.eta.spd".
+std::string metalOfFile(const std::string& path) {
+    std::string name = std::filesystem::path(path).stem().string();
+    std::replace(name.begin(), name.end(), '.', '-');
+    name.insert(0, "metal-");
+    return metalSpectrum(name) ? name : "";
+}
+
+/// Wavelengths and values by turns.
+std::vector<double> readSpectrumFile(const std::string& path, const Position& where) {
+    const std::string text = readBytes(path, where);
+    std::vector<double> pairs;
+    try {
+        Tokenizer tokens(text, &path);
+        while (tokens.peek().kind != TokenKind::end) pairs.push_back(numberOf(tokens.next()));
+    } catch (const Error& error) {
+        throw badInput(where, "{}", error.what());
     }
-    throw badInput(parameter.position, "'{}': spectrum \"{}\" is not supported here; give \"rgb {}\"{}",
-                   parameter.name, printable(name), parameter.name, didYouMean(name, known));
+    if (pairs.empty() || pairs.size() % 2 != 0)
+        throw badInput(where, "{} must hold pairs of a wavelength and a value, but has {} numbers", path,
+                       pairs.size());
+    return pairs;
 }
 
-/// Lobe of the fits below: a Gaussian with its own width on either side.
-double lobe(double x, double centre, double left, double right) {
-    const double t = (x - centre) / (x < centre ? left : right);
-    return std::exp(-0.5 * t * t);
+void checkWavelengths(const Parameter& parameter) {
+    const std::vector<double>& pairs = parameter.numbers;
+    for (std::size_t i = 2; i < pairs.size(); i += 2)
+        if (!(pairs[i] > pairs[i - 2]))
+            throw badInput(parameter.position, "'{}': wavelengths must ascend, but {} follows {}",
+                           parameter.name, pairs[i], pairs[i - 2]);
 }
 
-/// CIE 1931 colour matching functions. Wyman, Sloan, Shirley: Simple Analytic Approximations to the CIE XYZ
-/// Color Matching Functions, JCGT 2(2), 2013, the multi-lobe fit.
-glm::dvec3 colourMatching(double nm) {
-    return {1.056 * lobe(nm, 599.8, 37.9, 31.0) + 0.362 * lobe(nm, 442.0, 16.0, 26.7) -
-                0.065 * lobe(nm, 501.1, 20.4, 26.2),
-            0.821 * lobe(nm, 568.8, 46.9, 40.5) + 0.286 * lobe(nm, 530.9, 16.3, 31.1),
-            1.217 * lobe(nm, 437.0, 11.8, 36.0) + 0.681 * lobe(nm, 459.0, 26.0, 13.8)};
-}
-
-/// IEC 61966-2-1.
-glm::dvec3 rec709FromXyz(const glm::dvec3& xyz) {
-    return {3.2404542 * xyz.x - 1.5371385 * xyz.y - 0.4985314 * xyz.z,
-            -0.9692660 * xyz.x + 1.8760108 * xyz.y + 0.0415560 * xyz.z,
-            0.0556434 * xyz.x - 0.2040259 * xyz.y + 1.0572252 * xyz.z};
+/// In Rec.709; colours outside of it are clipped.
+glm::vec3 rgbValue(const Parameter& parameter, SpectrumUse use) {
+    if (parameter.numbers.size() != 3)
+        throw badInput(parameter.position, "rgb '{}' must have three values", parameter.name);
+    const glm::vec3 rgb{parameter.numbers[0], parameter.numbers[1], parameter.numbers[2]};
+    for (int c = 0; c < 3; ++c)
+        checkRange(rgb[c], use == SpectrumUse::albedo ? Range{0, 1} : kNonNegative, parameter);
+    if (!parameter.colourSpace) return rgb;
+    const glm::vec3 ours = use == SpectrumUse::illuminant ? rec709Light(*parameter.colourSpace, rgb)
+                                                          : rec709Reflectance(*parameter.colourSpace, rgb);
+    return glm::clamp(ours, 0.f, use == SpectrumUse::albedo ? 1.f : std::numeric_limits<float>::max());
 }
 
 } // namespace
@@ -101,38 +154,62 @@ std::optional<glm::vec3> metalSpectrum(std::string_view name) {
 }
 
 glm::vec3 blackbodyRgb(double kelvin) {
-    constexpr double kSecondRadiation = 1.438776877e7; // h c / k in nm K
-    glm::dvec3 xyz(0);
-    for (double nm = kVisibleFirst; nm <= kVisibleLast; nm += 1) {
-        // Planck's law relative to 560 nm, which cannot overflow for any temperature that is allowed.
-        const double radiance = std::pow(560 / nm, 5) * std::expm1(kSecondRadiation / (560 * kelvin)) /
-                                std::expm1(kSecondRadiation / (nm * kelvin));
-        xyz += radiance * colourMatching(nm);
-    }
-    return glm::max(glm::vec3(rec709FromXyz(xyz / xyz.y)), glm::vec3(0));
+    return glm::max(lightRgb([&](double nm) { return blackbody(nm, kelvin); }), 0.f);
+}
+
+glm::dvec2 illuminantWhite(double kelvin) {
+    // pbrt's constants are those of 1931 for daylight.
+    if (kelvin >= 4000) return daylight(kelvin * 1.4388 / 1.4380);
+    const glm::dvec3 xyz = xyzOf([&](double nm) { return blackbody(nm, kelvin); });
+    return glm::dvec2(xyz) / (xyz.x + xyz.y + xyz.z);
 }
 
 glm::vec3 spectrumValue(const Parameter& parameter, SpectrumUse use) {
-    glm::vec3 value;
-    if (parameter.type == "blackbody") {
-        if (use != SpectrumUse::illuminant || parameter.numbers.size() != 1)
-            throw badInput(parameter.position, "blackbody '{}' must be one temperature of a light",
-                           parameter.name);
-        checkRange(parameter.numbers[0], {500, 1e6, false}, parameter);
-        value = blackbodyRgb(parameter.numbers[0]);
-    } else if (parameter.type == "spectrum") {
-        value = parameter.strings.empty() ? sampledSpectrum(parameter, use) : namedSpectrum(parameter, use);
-    } else {
-        if (parameter.numbers.size() != 3)
-            throw badInput(parameter.position, "rgb '{}' must have three values", parameter.name);
-        value = {parameter.numbers[0], parameter.numbers[1], parameter.numbers[2]};
+    if (parameter.type == "rgb") return rgbValue(parameter, use);
+    if (parameter.type == "spectrum") {
+        if (!parameter.strings.empty()) return namedSpectrum(parameter, use);
+        for (std::size_t i = 1; i < parameter.numbers.size(); i += 2)
+            checkRange(parameter.numbers[i], kNonNegative, parameter);
+        return sampledRgb(SampledSpectrum(parameter.numbers), use);
     }
-    for (int c = 0; c < 3; ++c)
-        checkRange(value[c], use == SpectrumUse::albedo ? Range{0, 1} : kNonNegative, parameter);
-    return value;
+    if (use != SpectrumUse::illuminant || parameter.numbers.size() != 1)
+        throw badInput(parameter.position, "blackbody '{}' must be one temperature of a light",
+                       parameter.name);
+    checkRange(parameter.numbers[0], {500, 1e6, false}, parameter);
+    return blackbodyRgb(parameter.numbers[0]);
+}
+
+void loadSpectra(ParameterVector& parameters, const SceneFiles& files) {
+    for (auto& parameter : parameters) {
+        if (parameter->type != "spectrum") continue;
+        if (parameter->strings.size() == 1 && !isNamedSpectrum(parameter->strings[0])) {
+            const std::string path = files.resolve(parameter->strings[0]);
+            const std::string metal = metalOfFile(path);
+            std::error_code ignored;
+            Parameter loaded = *parameter;
+            if (std::filesystem::exists(path, ignored)) {
+                loaded.strings.clear();
+                loaded.numbers = readSpectrumFile(path, parameter->position);
+            } else if (!metal.empty()) {
+                loaded.strings[0] = metal;
+            }
+            parameter = std::make_shared<const Parameter>(std::move(loaded));
+        }
+        checkWavelengths(*parameter);
+    }
+}
+
+std::optional<Metal> sampledMetal(const Parameter* eta, const Parameter* k) {
+    const auto isSampled = [](const Parameter* p) {
+        return p && p->type == "spectrum" && !p->numbers.empty() && !SampledSpectrum(p->numbers).isConstant();
+    };
+    if (!isSampled(eta) || !isSampled(k)) return {};
+    const SampledSpectrum etas(eta->numbers), ks(k->numbers);
+    return metalOf([&](double nm) { return etas.at(nm); }, [&](double nm) { return ks.at(nm); });
 }
 
 float glassEta(const Parameter& parameter) {
+    if (parameter.strings.empty()) return float(SampledSpectrum(parameter.numbers).at(kHeliumLineNm));
     std::vector<std::string_view> known;
     for (const NamedGlass& glass : kGlasses) {
         if (parameter.strings.size() == 1 && glass.name == parameter.strings[0]) return glass.eta;

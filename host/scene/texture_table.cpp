@@ -12,7 +12,11 @@ namespace {
 
 constexpr int kMaxTextureDepth = 100; // textures of textures; each level is a level of recursion
 
-constexpr std::string_view kKinds[] = {"constant", "scale", "mix", "checkerboard", "imagemap"};
+constexpr std::string_view kKinds[] = {"constant",     "scale",    "mix",      "bilerp",
+                                       "checkerboard", "dots",     "imagemap", "directionmix",
+                                       "fbm",          "wrinkled", "windy",    "marble"};
+/// Finer ones are far below what a float can tell apart.
+constexpr int kMaxOctaves = 32;
 
 ColourEncoding encodingOf(ParameterList& parameters) {
     const std::optional<std::string> name = parameters.text("encoding");
@@ -33,12 +37,15 @@ ColourEncoding encodingOf(ParameterList& parameters) {
 } // namespace
 
 void TextureTable::define(bool isFloat, const std::string& name, const std::string& kind,
-                          ParameterList parameters, const glm::dmat4& textureFromWorld) {
+                          ParameterList parameters, const glm::dmat4& textureFromWorld, bool mayReplace) {
     const Position where = parameters.position();
     Definition definition{isFloat, kind, std::move(parameters), textureFromWorld};
-    if (!definitions_.try_emplace({isFloat, name}, std::move(definition)).second)
+    const auto [known, isNew] = definitions_.try_emplace({isFloat, name}, std::move(definition));
+    if (isNew) return;
+    if (!mayReplace)
         throw badInput(where, "the {} texture '{}' is defined twice", isFloat ? "float" : "spectrum",
                        printable(name));
+    known->second = std::move(definition);
 }
 
 int TextureTable::constant(glm::vec3 value) {
@@ -89,15 +96,19 @@ void TextureTable::buildAll() {
 int TextureTable::build(Definition& definition) {
     if (definition.index >= 0) return definition.index;
     if (definition.inProgress)
-        throw badInput(definition.parameters.position(), "this texture is made of itself");
+        throw syntaxError(definition.parameters.position(), "this texture is made of itself");
     if (depth_ >= kMaxTextureDepth)
-        throw badInput(definition.parameters.position(), "textures are nested more than {} deep",
-                       kMaxTextureDepth);
+        throw syntaxError(definition.parameters.position(), "textures are nested more than {} deep",
+                          kMaxTextureDepth);
     definition.inProgress = true;
     ++depth_;
-    const Texture texture = make(definition);
+    Texture texture;
+    const auto work = [&] {
+        texture = make(definition);
+        definition.parameters.finish();
+    };
+    if (!issues_.attempt("a constant of 0.5 stands in", work)) texture = {.value = glm::vec3(0.5f)};
     --depth_;
-    definition.parameters.finish();
     scene_.textures.push_back(texture);
     return definition.index = int(scene_.textures.size()) - 1;
 }
@@ -116,39 +127,103 @@ Texture TextureTable::make(Definition& definition) {
         else if (const Parameter* value = findSpectrum(parameters, "value"))
             texture.value = spectrumValue(*value, SpectrumUse::albedo);
     } else if (definition.kind == "scale") {
-        texture.kind = TextureKind::scale;
-        texture.child = {child(definition, "tex", 1), floatTexture(parameters, "scale", 1.f), -1};
+        const bool isProduct = isColour(definition, "scale");
+        texture.kind = isProduct ? TextureKind::product : TextureKind::scale;
+        texture.child[0] = child(definition, "tex", 1);
+        texture.child[1] = isProduct ? child(definition, "scale", 1) : floatTexture(parameters, "scale", 1.f);
     } else if (definition.kind == "mix") {
         texture.kind = TextureKind::mix;
         texture.child = {child(definition, "tex1", 0), child(definition, "tex2", 1),
-                         floatTexture(parameters, "amount", 0.5f)};
+                         floatTexture(parameters, "amount", 0.5f), -1};
     } else if (definition.kind == "checkerboard") {
         texture.kind = TextureKind::checkerboard;
-        texture.child = {child(definition, "tex1", 1), child(definition, "tex2", 0), -1};
+        texture.child = {child(definition, "tex1", 1), child(definition, "tex2", 0), -1, -1};
         if (parameters.integer("dimension", 2, 2, 3) == 3)
-            throw badInput(parameters.positionOf("dimension"),
-                           "checkerboards of dimension 3 are not supported");
-        readMapping(texture, definition);
+            readSpace(texture, definition);
+        else
+            readMapping(texture, definition);
     } else if (definition.kind == "imagemap") {
         texture.kind = TextureKind::imagemap;
         readMapping(texture, definition);
         readImage(texture, definition);
     } else {
-        throw badInput(parameters.position(), "texture kind \"{}\" is not supported{}",
-                       printable(definition.kind), didYouMean(definition.kind, kKinds));
+        makePattern(texture, definition);
     }
     return texture;
 }
 
+/// Whether a parameter, of older files, is a colour where pbrt-v4 has a number.
+bool TextureTable::isColour(Definition& definition, std::string_view name) const {
+    if (definition.isFloat) return false;
+    const Parameter* parameter =
+        definition.parameters.find(name, {"float", "texture", "rgb", "spectrum", "blackbody"});
+    if (!parameter || parameter->type == "float") return false;
+    if (parameter->type != "texture") return true;
+    return !definitions_.contains({true, parameter->strings[0]}) &&
+           definitions_.contains({false, parameter->strings[0]});
+}
+
+void TextureTable::makePattern(Texture& texture, Definition& definition) {
+    ParameterList& parameters = definition.parameters;
+    if (definition.kind == "bilerp") {
+        texture.kind = TextureKind::bilerp;
+        texture.child = {child(definition, "v00", 0), child(definition, "v01", 1),
+                         child(definition, "v10", 0), child(definition, "v11", 1)};
+        readMapping(texture, definition);
+    } else if (definition.kind == "dots") {
+        texture.kind = TextureKind::dots;
+        texture.child = {child(definition, "inside", 1), child(definition, "outside", 0), -1, -1};
+        readMapping(texture, definition);
+    } else if (definition.kind == "directionmix") {
+        // pbrt mixes from the second to the first as the normal turns to `dir`.
+        texture.kind = TextureKind::directionMix;
+        texture.child = {child(definition, "tex1", 0), child(definition, "tex2", 1), -1, -1};
+        const glm::dmat3 worldFromTexture = glm::inverse(glm::dmat3(definition.textureFromWorld));
+        const glm::vec3 dir = parameters.triple("dir", "vector3", {0, 1, 0});
+        if (dir == glm::vec3(0)) throw badInput(parameters.positionOf("dir"), "'dir' must not be 0 0 0");
+        texture.direction = glm::vec3(glm::normalize(worldFromTexture * glm::dvec3(dir)));
+    } else if (definition.kind == "windy") {
+        texture.kind = TextureKind::windy;
+        readSpace(texture, definition);
+    } else if (definition.kind == "fbm" || definition.kind == "wrinkled" || definition.kind == "marble") {
+        texture.kind = definition.kind == "fbm"        ? TextureKind::fbm
+                       : definition.kind == "wrinkled" ? TextureKind::wrinkled
+                                                       : TextureKind::marble;
+        texture.octaves = parameters.integer("octaves", 8, 0, kMaxOctaves);
+        texture.roughness = parameters.number("roughness", 0.5f, {0, 1});
+        if (texture.kind == TextureKind::marble) {
+            texture.scale = parameters.number("scale", 1);
+            texture.variation = parameters.number("variation", 0.2f);
+        }
+        readSpace(texture, definition);
+    } else {
+        throw unsupported(parameters.position(), "texture kind \"{}\" is not supported{}",
+                          printable(definition.kind), didYouMean(definition.kind, kKinds));
+    }
+}
+
+void TextureTable::readSpace(Texture& texture, Definition& definition) {
+    texture.mapping = TextureMapping::space;
+    texture.textureFromWorld = definition.textureFromWorld;
+}
+
 void TextureTable::readMapping(Texture& texture, Definition& definition) {
     ParameterList& parameters = definition.parameters;
-    texture.uvDelta = {parameters.number("udelta", 0), parameters.number("vdelta", 0)};
-    if (parameters.choice("mapping", "uv", {"uv", "planar"}) == "uv") {
-        texture.uvScale = {parameters.number("uscale", 1), parameters.number("vscale", 1)};
+    const std::string mapping =
+        parameters.choice("mapping", "uv", {"uv", "planar", "spherical", "cylindrical"});
+    const glm::vec2 delta(parameters.number("udelta", 0), parameters.number("vdelta", 0));
+    const glm::vec2 scale(parameters.number("uscale", 1), parameters.number("vscale", 1));
+    if (mapping == "uv" || mapping == "planar") texture.uvDelta = delta;
+    if (mapping == "uv") {
+        texture.uvScale = scale;
+        return;
+    }
+    texture.textureFromWorld = definition.textureFromWorld;
+    if (mapping != "planar") {
+        texture.mapping = mapping == "spherical" ? TextureMapping::spherical : TextureMapping::cylindrical;
         return;
     }
     texture.mapping = TextureMapping::planar;
-    texture.textureFromWorld = definition.textureFromWorld;
     texture.planarV1 = parameters.triple("v1", "vector3", {1, 0, 0});
     texture.planarV2 = parameters.triple("v2", "vector3", {0, 1, 0});
 }

@@ -16,13 +16,15 @@ class SceneFiles;
 /// so definitions are kept and built when first needed.
 class TextureTable {
 public:
-    /// Both must outlive this.
-    TextureTable(Scene& scene, SceneFiles& files) : scene_(scene), files_(files) {}
+    /// All must outlive this.
+    TextureTable(Scene& scene, SceneFiles& files, Issues& issues)
+        : scene_(scene), files_(files), issues_(issues) {}
 
     /// `isFloat`: else a spectrum texture; the two have names of their own. `textureFromWorld` is the inverse
-    /// of the transform at the directive. Throws Error(badInput) if the name is taken.
+    /// of the transform at the directive. Throws Error(badInput) if the name is taken, unless it `mayReplace`
+    /// what has it, as in older files.
     void define(bool isFloat, const std::string& name, const std::string& kind, ParameterList parameters,
-                const glm::dmat4& textureFromWorld);
+                const glm::dmat4& textureFromWorld, bool mayReplace);
 
     /// Index of the texture that the parameter `name` means; -1 if it is not there and has no `fallback`.
     int floatTexture(ParameterList& parameters, std::string_view name, std::optional<float> fallback,
@@ -30,6 +32,8 @@ public:
     int spectrumTexture(ParameterList& parameters, std::string_view name, SpectrumUse use,
                         std::optional<glm::vec3> fallback);
 
+    /// Index of a texture of one value.
+    int constant(glm::vec3 value);
     /// Builds unused textures too, so that their errors are found.
     void buildAll();
 
@@ -44,16 +48,19 @@ private:
     };
     using Key = std::pair<bool, std::string>; // float?, name
 
-    int constant(glm::vec3 value);
     int named(bool isFloat, const Parameter& parameter);
     int build(Definition& definition);
     Texture make(Definition& definition);
+    void makePattern(Texture& texture, Definition& definition);
     void readMapping(Texture& texture, Definition& definition);
+    void readSpace(Texture& texture, Definition& definition);
     void readImage(Texture& texture, Definition& definition);
     int child(Definition& definition, std::string_view name, float fallback);
+    bool isColour(Definition& definition, std::string_view name) const;
 
     Scene& scene_;
     SceneFiles& files_;
+    Issues& issues_;
     std::map<Key, Definition> definitions_;
     int depth_ = 0;
 };

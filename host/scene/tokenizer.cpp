@@ -1,5 +1,6 @@
 #include "scene/tokenizer.h"
 
+#include "scene/issues.h"
 #include "scene/spelling.h"
 
 #include <charconv>
@@ -34,7 +35,7 @@ char unescape(char c, const Position& position) {
     case '"':
         return c;
     default:
-        throw badInput(position, "unknown escape '\\{}' in a string", printable({&c, 1}));
+        throw syntaxError(position, "unknown escape '\\{}' in a string", printable({&c, 1}));
     }
 }
 
@@ -90,7 +91,7 @@ Token Tokenizer::scanString(Token token) {
     bool escaped = false;
     while (true) {
         if (offset_ == text_.size() || text_[offset_] == '\n')
-            throw badInput(token.position, "this string has no closing quote in its line");
+            throw syntaxError(token.position, "this string has no closing quote in its line");
         const char c = advance();
         if (c == '"') break;
         if (c != '\\') {
@@ -99,7 +100,7 @@ Token Tokenizer::scanString(Token token) {
         }
         if (!escaped) resolved = text_.substr(start, offset_ - 1 - start);
         escaped = true;
-        if (offset_ == text_.size()) throw badInput(token.position, "the file ends within this string");
+        if (offset_ == text_.size()) throw syntaxError(token.position, "the file ends within this string");
         resolved += unescape(advance(), token.position);
     }
     token.text = escaped ? std::string_view(unescaped_.emplace_back(std::move(resolved)))
@@ -142,11 +143,11 @@ double numberOf(const Token& token) {
     const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (token.kind != TokenKind::word || end != text.data() + text.size() ||
         status == std::errc::invalid_argument)
-        throw badInput(token.position, "expected a number, found {}", token.shown());
+        throw syntaxError(token.position, "expected a number, found {}", token.shown());
     // from_chars does not set the value on overflow or underflow; strtod distinguishes the two.
     if (status == std::errc::result_out_of_range) value = std::strtod(std::string(text).c_str(), nullptr);
     if (!(std::abs(value) <= std::numeric_limits<float>::max()))
-        throw badInput(token.position, "{} is not a finite number in the range of a float", token.shown());
+        throw syntaxError(token.position, "{} is not a finite number in the range of a float", token.shown());
     return value;
 }
 
@@ -156,15 +157,15 @@ int integerOf(const Token& token) {
     const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (token.kind != TokenKind::word || end != text.data() + text.size() ||
         status == std::errc::invalid_argument)
-        throw badInput(token.position, "expected an integer, found {}", token.shown());
+        throw syntaxError(token.position, "expected an integer, found {}", token.shown());
     if (status != std::errc())
-        throw badInput(token.position, "{} is not in the range of a 32-bit integer", token.shown());
+        throw syntaxError(token.position, "{} is not in the range of a 32-bit integer", token.shown());
     return value;
 }
 
 std::string stringOf(const Token& token) {
     if (token.kind != TokenKind::string)
-        throw badInput(token.position, "expected a string in quotes, found {}", token.shown());
+        throw syntaxError(token.position, "expected a string in quotes, found {}", token.shown());
     return std::string(token.text);
 }
 

@@ -22,7 +22,7 @@ struct Token {
     std::string shown() const;
 };
 
-/// Comments and white space are skipped. Throws Error(badInput) for strings that do not end in their line.
+/// Comments and white space are skipped. Throws SyntaxError for strings that do not end in their line.
 class Tokenizer {
 public:
     /// Both must outlive the tokenizer; `name` also every Position.
@@ -44,7 +44,7 @@ private:
     std::deque<std::string> unescaped_; // strings with escapes, resolved; stable addresses
 };
 
-/// The token's value. Throws Error(badInput) if it is not a finite number in float's range.
+/// The token's value. Throws SyntaxError if it is not a finite number in float's range.
 double numberOf(const Token& token);
 /// The same for a 32-bit integer, without fraction or exponent.
 int integerOf(const Token& token);

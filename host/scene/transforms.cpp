@@ -52,14 +52,25 @@ glm::dmat4 affineInverse(const glm::dmat4& matrix) {
     return result;
 }
 
-void checkInvertible(const glm::dmat4& matrix, const Position& where) {
-    for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 4; ++row)
-            if (!(std::abs(matrix[column][row]) <= std::numeric_limits<float>::max()))
-                throw badInput(where, "the transform here has numbers beyond the range of a float");
-    const glm::dmat3 linear(matrix);
-    const double lengths = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
-    if (!(std::abs(glm::determinant(linear)) > kFlattest * lengths))
+void checkFinite(const MovingTransform& transform, const Position& where) {
+    for (const glm::dmat4& matrix : transform.at)
+        for (int column = 0; column < 4; ++column)
+            for (int row = 0; row < 4; ++row)
+                if (!(std::abs(matrix[column][row]) <= std::numeric_limits<float>::max()))
+                    throw badInput(where, "the transform here has numbers beyond the range of a float");
+}
+
+bool isInvertible(const MovingTransform& transform) {
+    for (const glm::dmat4& matrix : transform.at) {
+        const glm::dmat3 linear(matrix);
+        const double lengths = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
+        if (!(std::abs(glm::determinant(linear)) > kFlattest * lengths)) return false;
+    }
+    return true;
+}
+
+void checkInvertible(const MovingTransform& transform, const Position& where) {
+    if (!isInvertible(transform))
         throw badInput(where, "the transform here is singular: it cannot be inverted");
 }
 

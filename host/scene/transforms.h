@@ -24,8 +24,12 @@ glm::dmat4 affine(const glm::dmat4& matrix, const Position& where);
 /// Inverse of an affine matrix, again with an exact last row.
 glm::dmat4 affineInverse(const glm::dmat4& matrix);
 
-/// Throws Error(badInput) unless `matrix` is finite in floats and can be inverted.
-void checkInvertible(const glm::dmat4& matrix, const Position& where);
+/// Throws Error(badInput) unless it is finite in floats.
+void checkFinite(const MovingTransform& transform, const Position& where);
+/// Whether it can be inverted at both times.
+bool isInvertible(const MovingTransform& transform);
+/// Throws Error(badInput) if it cannot.
+void checkInvertible(const MovingTransform& transform, const Position& where);
 
 MovingTransform inverse(const MovingTransform& transform);
 

@@ -12,6 +12,12 @@ float lastOfPixel(int pixel) {
     return std::nextafter(float(pixel + 1), -std::numeric_limits<float>::infinity());
 }
 
+/// What the film's white balance makes of a radiance.
+glm::vec3 balanced(const Film& film, glm::vec3 radiance) {
+    if (film.whiteBalance == glm::mat3(1)) return radiance;
+    return glm::max(film.whiteBalance * radiance, 0.f);
+}
+
 /// What pbrt's sensor and film multiply a radiance by: brightness, and samples no brighter than the film
 /// allows.
 float exposureOf(const Film& film, glm::vec3 radiance) {
@@ -91,9 +97,19 @@ void BlockTracer::shade(int sample) {
         shadowRays[lane] = shadows_[lane].ray;
         if (!shadows_[lane].needed()) shadowRays[lane].tMax = 0;
     }
-    job_.geometry.occluded(shadowRays, occluded);
+    traceShadows(shadowRays, occluded);
     for (std::size_t lane = 0; lane < kLanes; ++lane)
         if (shadows_[lane].needed() && !occluded[lane]) paths_[lane].add(shadows_[lane]);
+}
+
+/// With the distances of what is in the way where the field wants to know them.
+void BlockTracer::traceShadows(std::span<const Ray> rays, std::span<std::uint8_t> occluded) {
+    if (job_.out.position.empty()) {
+        job_.geometry.occluded(rays, occluded);
+        return;
+    }
+    job_.geometry.distances(rays, blockers_);
+    for (std::size_t i = 0; i < rays.size(); ++i) occluded[i] = !std::isinf(blockers_[i]);
 }
 
 /// The rest of a path.
@@ -134,15 +150,18 @@ void BlockTracer::store(int i, int sample) {
     std::size_t index = pixel * std::size_t(job_.count) + std::size_t(sample - job_.firstSample);
     job_.out.samples[index] = s;
     const PathState& path = paths_[lane];
-    const float exposure = weights_[lane] * exposureOf(job_.scene.film, weights_[lane] * path.radiance);
-    job_.out.radiance[index] = exposure * path.radiance;
+    const Film& film = job_.scene.film;
+    const glm::vec3 radiance = balanced(film, path.radiance);
+    const float exposure = weights_[lane] * exposureOf(film, weights_[lane] * radiance);
+    job_.out.radiance[index] = exposure * radiance;
     if (!job_.out.albedo.empty()) job_.out.albedo[index] = guides_[lane].albedo;
     if (!job_.out.normal.empty()) job_.out.normal[index] = guides_[lane].normal;
     if (!job_.out.illumination.empty()) {
         const glm::vec3 reflectance = guides_[lane].reflectance;
-        job_.out.illumination[index] = exposure * quotient(path.diffuse, reflectance);
+        job_.out.illumination[index] = exposure * quotient(balanced(film, path.diffuse), reflectance);
         job_.out.reflectance[index] = reflectance;
-        job_.out.reflection[index] = exposure * path.reflection;
+        job_.out.reflection[index] = exposure * balanced(film, path.reflection);
+        if (!job_.out.position.empty()) storeShadow(i, index, exposure);
     }
     if (!job_.out.motion.empty()) {
         // The dark around a picture keeps still.
@@ -154,6 +173,25 @@ void BlockTracer::store(int i, int sample) {
             job_.camera.isParallel() && std::isfinite(depth) ? depth * fitted.motion : fitted.motion;
         misses_.add(fitted.missPx);
     }
+}
+
+/// The shadow ray of a first vertex.
+void BlockTracer::storeShadow(int i, std::size_t index, float exposure) {
+    const std::size_t lane = std::size_t(i);
+    const glm::vec3 position = hits_[lane].position;
+    const ShadowRay& shadow = shadows_[lane];
+    glm::vec3 light = position, blocker = position, direct(0);
+    if (shadow.needed()) {
+        const float distance = std::isinf(shadow.ray.tMax) ? job_.farAway : shadow.ray.tMax;
+        light += distance * shadow.ray.direction;
+        blocker = std::isinf(blockers_[lane]) ? light : position + blockers_[lane] * shadow.ray.direction;
+        direct = exposure * quotient(balanced(job_.scene.film, shadow.diffuseShare * shadow.contribution),
+                                     guides_[lane].reflectance);
+    }
+    job_.out.position[index] = position;
+    job_.out.light[index] = light;
+    job_.out.blocker[index] = blocker;
+    job_.out.direct[index] = direct;
 }
 
 } // namespace slant

@@ -27,6 +27,7 @@ struct TraceJob {
     SampleSpans out;
     const SampleMotion& motion;
     bool findsImages; ///< of mirrors and glass
+    float farAway;    ///< where lights without a place are said to be
 };
 
 class BlockTracer {
@@ -46,9 +47,11 @@ private:
     int y(int lane) const { return y0_ + lane / kBlockSize; }
     void generate(int sample);
     void shade(int sample);
+    void traceShadows(std::span<const Ray> rays, std::span<std::uint8_t> occluded);
     void finish(int lane);
     float depthOf(int lane) const;
     void store(int lane, int sample);
+    void storeShadow(int lane, std::size_t index, float exposure);
 
     const TraceJob& job_;
     int x0_, y0_;
@@ -62,6 +65,7 @@ private:
     std::array<ShadingSampler, kLanes> samplers_;
     std::array<PathState, kLanes> paths_;
     std::array<ShadowRay, kLanes> shadows_;
+    std::array<float, kLanes> blockers_; ///< distances of what is in the way; infinity: nothing
     std::array<bool, kLanes> goesOn_;
     MotionMisses misses_;
 };

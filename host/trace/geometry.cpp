@@ -154,7 +154,9 @@ void Geometry::passMasked(const Ray& ray, SurfaceHit& hit) const {
     const float length2 = glm::dot(ray.direction, ray.direction);
     while (hit.hit() && hit.alpha >= 0) {
         const float alpha =
-            impl_->textures->evaluate(hit.alpha, {hit.position, hit.uv}, TextureUse::number).x;
+            impl_->textures
+                ->evaluate(hit.alpha, {hit.position, hit.uv, hit.geometricNormal}, TextureUse::number)
+                .x;
         if (alpha >= 1) break;
         const std::uint32_t hash = hashWords(hashVector(rest.origin), hashVector(rest.direction));
         if (alpha > 0 && unitFloat(hash) <= alpha) break;
@@ -223,6 +225,22 @@ void Geometry::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occlu
         fillPacket(part, query, valid);
         embree::occluded(impl_->world.still.scene.get(), valid, query);
         for (std::size_t i = 0; i < part.size(); ++i) occluded[first + i] = valid[i] && query.tfar[i] < 0;
+    }
+}
+
+void Geometry::distances(std::span<const Ray> rays, std::span<float> distances) const {
+    for (std::size_t first = 0; first < rays.size(); first += kPacket) {
+        auto part = rays.subspan(first, std::min<std::size_t>(kPacket, rays.size() - first));
+        RTCRayHit16 query;
+        alignas(64) int valid[kPacket];
+        fillPacket(part, query.ray, valid);
+        std::fill_n(query.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
+        std::fill_n(query.hit.instID[0], kPacket, RTC_INVALID_GEOMETRY_ID);
+        embree::intersect(impl_->world.still.scene.get(), valid, query);
+        for (std::size_t i = 0; i < part.size(); ++i)
+            distances[first + i] = query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID
+                                       ? std::numeric_limits<float>::infinity()
+                                       : query.ray.tfar[i];
     }
 }
 

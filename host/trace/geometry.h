@@ -36,6 +36,9 @@ public:
     /// occluded[i] = 1 or 0.
     void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const;
 
+    /// The distance of the nearest surface, infinity if there is none.
+    void distances(std::span<const Ray> rays, std::span<float> distances) const;
+
     /// World bounds of everything, wherever it moves; empty for an empty scene.
     Box bounds() const;
 

@@ -159,7 +159,7 @@ const Materials::Entry& Materials::chosen(const SurfaceHit& hit, glm::vec3 wo) c
     int index = hit.materialIndex;
     while (entries_[std::size_t(index)].kind == MaterialKind::mix) {
         const Entry& mix = entries_[std::size_t(index)];
-        const float amount = value(mix.amount, {hit.position, hit.uv}).x;
+        const float amount = value(mix.amount, {hit.position, hit.uv, hit.geometricNormal}).x;
         std::uint32_t hash = hashWords(hashVector(hit.position), hashVector(wo));
         const bool second = unitFloat(hashWords(hash, std::uint32_t(index))) < amount;
         index = mix.mixed[second];
@@ -176,7 +176,7 @@ ShadingFrame Materials::bumped(const Entry& e, const SurfaceHit& hit) const {
         normal = stored.x * x + stored.y * glm::cross(n, x) + stored.z * n;
     } else {
         const auto displacement = [&](glm::vec3 step, glm::vec2 uvStep) {
-            return value(e.displacement, {hit.position + step, hit.uv + uvStep}).x;
+            return value(e.displacement, {hit.position + step, hit.uv + uvStep, hit.geometricNormal}).x;
         };
         const float here = displacement({}, {});
         const float alongU = displacement(kBumpStep * hit.dpdu, {kBumpStep, 0}) - here;
@@ -194,7 +194,7 @@ Bsdf Materials::bsdf(const SurfaceHit& hit, glm::vec3 wo) const {
     const Entry* entry = &entries_[std::size_t(hit.materialIndex)];
     if (entry->kind == MaterialKind::mix) entry = &chosen(hit, wo);
     const Entry& e = *entry;
-    const TexturePoint point{hit.position, hit.uv};
+    const TexturePoint point{hit.position, hit.uv, hit.geometricNormal};
     const auto [normal, tangent] = e.hasBumps() ? bumped(e, hit) : ShadingFrame{hit.shadingNormal, hit.dpdu};
     const auto reflectance = [&] { return glm::clamp(value(e.reflectance, point), 0.f, 1.f); };
     switch (e.kind) {

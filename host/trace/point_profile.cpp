@@ -37,6 +37,11 @@ PointProfile::PointProfile(const Scene& scene, const Light& light)
         return;
     }
     image_ = &scene.images[std::size_t(light.imageIndex)];
+    if (kind_ == LightKind::goniometric && image_->width() != image_->height())
+        throw badInput(
+            light.location,
+            "the image of a goniometric light must be square (equal-area octahedral), but it is {}x{}",
+            image_->width(), image_->height());
     const float aspect = float(image_->width()) / float(image_->height());
     screen_ = std::tan(glm::radians(light.fovDegrees) / 2) *
               (aspect > 1 ? glm::vec2(aspect, 1) : glm::vec2(1, 1 / aspect));

@@ -1,25 +1,30 @@
 #include "trace/textures.h"
 
 #include "base/error.h"
+#include "trace/noise.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace slant {
 namespace {
 
 int childCount(TextureKind kind) {
     switch (kind) {
-    case TextureKind::constant:
-    case TextureKind::imagemap:
-        return 0;
     case TextureKind::scale:
+    case TextureKind::product:
+    case TextureKind::directionMix:
     case TextureKind::checkerboard:
+    case TextureKind::dots:
         return 2;
     case TextureKind::mix:
         return 3;
+    case TextureKind::bilerp:
+        return 4;
+    default:
+        return 0;
     }
-    return 0;
 }
 
 /// The row of an affine map that takes a world point to its coordinate along `axis` in texture space.
@@ -27,6 +32,11 @@ glm::vec4 planarRow(const Texture& texture, glm::vec3 axis, float delta) {
     glm::dvec4 row = glm::transpose(texture.textureFromWorld) * glm::dvec4(axis, 0.0);
     row.w += double(delta);
     return glm::vec4(row);
+}
+
+/// Whether the value depends on nothing but the children.
+bool isMixture(TextureKind kind) {
+    return kind == TextureKind::scale || kind == TextureKind::product || kind == TextureKind::mix;
 }
 
 /// Keeps a coordinate where conversion to int is safe; NaN becomes -1.
@@ -49,21 +59,26 @@ Textures::Textures(const Scene& scene) {
                   t.kind == TextureKind::constant,
                   t.scale,
                   t.value,
-                  {t.child[0], t.child[1], t.child[2]},
+                  t.child,
                   t.uvScale,
                   t.uvDelta,
                   planarRow(t, t.planarV1, t.uvDelta.x),
                   planarRow(t, t.planarV2, t.uvDelta.y),
-                  nullptr};
+                  planarRow(t, {0, 0, 1}, 0),
+                  nullptr,
+                  t.octaves,
+                  t.roughness,
+                  t.variation,
+                  t.direction};
         int children = childCount(t.kind);
         bool constantChildren = children > 0;
-        for (int c = 0; c < children; ++c) {
+        for (std::size_t c = 0; c < std::size_t(children); ++c) {
             if (t.child[c] < 0 || t.child[c] >= int(i))
                 throw badInput(file, "texture {} refers to texture {}, which is not defined before it", i,
                                t.child[c]);
             constantChildren = constantChildren && isConstant(t.child[c]);
         }
-        node.constant = node.constant || (constantChildren && t.kind != TextureKind::checkerboard);
+        node.constant = node.constant || (constantChildren && isMixture(t.kind));
         if (t.kind == TextureKind::imagemap) {
             if (t.imageIndex < 0 || t.imageIndex >= int(scene.images.size()))
                 throw badInput(file, "texture {} refers to image {}, which does not exist", i, t.imageIndex);
@@ -85,28 +100,77 @@ glm::vec3 Textures::evaluate(int texture, const TexturePoint& point, TextureUse 
         float factor = evaluate(node.child[1], point, TextureUse::number).x;
         return factor == 0 ? glm::vec3(0) : factor * evaluate(node.child[0], point, use);
     }
-    case TextureKind::mix: {
-        float amount = evaluate(node.child[2], point, TextureUse::number).x;
-        if (amount == 0) return evaluate(node.child[0], point, use);
-        if (amount == 1) return evaluate(node.child[1], point, use);
-        return (1 - amount) * evaluate(node.child[0], point, use) +
-               amount * evaluate(node.child[1], point, use);
-    }
+    case TextureKind::mix:
+        return mixed(node, evaluate(node.child[2], point, TextureUse::number).x, point, use);
     case TextureKind::checkerboard: {
+        if (node.mapping == TextureMapping::space) return evaluateRare(node, point, use);
         glm::vec2 cell = glm::floor(map(node, point));
         float halfSum = 0.5f * (cell.x + cell.y);
         return evaluate(node.child[halfSum == std::floor(halfSum) ? 0 : 1], point, use);
     }
     case TextureKind::imagemap:
         return evaluateImage(node, map(node, point), use);
+    default:
+        return evaluateRare(node, point, use);
     }
-    return glm::vec3(0);
+}
+
+glm::vec3 Textures::mixed(const Node& node, float amount, const TexturePoint& point, TextureUse use) const {
+    if (amount == 0) return evaluate(node.child[0], point, use);
+    if (amount == 1) return evaluate(node.child[1], point, use);
+    return (1 - amount) * evaluate(node.child[0], point, use) + amount * evaluate(node.child[1], point, use);
+}
+
+/// The rest, out of the way of what most scenes need.
+glm::vec3 Textures::evaluateRare(const Node& node, const TexturePoint& point, TextureUse use) const {
+    const auto child = [&](std::size_t i) { return evaluate(node.child[i], point, use); };
+    switch (node.kind) {
+    case TextureKind::product:
+        return child(0) * child(1);
+    case TextureKind::directionMix:
+        return mixed(node, 1 - std::min(std::abs(glm::dot(point.normal, node.direction)), 1.f), point, use);
+    case TextureKind::bilerp: {
+        const glm::vec2 st = map(node, point);
+        return glm::mix(glm::mix(child(0), child(2), st.x), glm::mix(child(1), child(3), st.x), st.y);
+    }
+    case TextureKind::checkerboard: {
+        const glm::vec3 cell = glm::floor(place(node, point));
+        const float halfSum = 0.5f * (cell.x + cell.y + cell.z);
+        return child(halfSum == std::floor(halfSum) ? 0 : 1);
+    }
+    case TextureKind::dots:
+        return child(isInDot(map(node, point)) ? 0 : 1);
+    case TextureKind::fbm:
+        return glm::vec3(fractalNoise(place(node, point), node.roughness, node.octaves));
+    case TextureKind::wrinkled:
+        return glm::vec3(turbulence(place(node, point), node.roughness, node.octaves));
+    case TextureKind::windy: {
+        const glm::vec3 p = place(node, point);
+        return glm::vec3(std::abs(fractalNoise(0.1f * p, 0.5f, 3)) * fractalNoise(p, 0.5f, 6));
+    }
+    case TextureKind::marble:
+        return marble(node.scale * place(node, point), node.variation, node.roughness, node.octaves);
+    default:
+        return glm::vec3(0);
+    }
+}
+
+/// In texture space.
+glm::vec3 Textures::place(const Node& node, const TexturePoint& point) {
+    const glm::vec4 p(point.position, 1);
+    return {glm::dot(p, node.planarS), glm::dot(p, node.planarT), glm::dot(p, node.row3)};
 }
 
 glm::vec2 Textures::map(const Node& node, const TexturePoint& point) {
     if (node.mapping == TextureMapping::uv) return node.uvScale * point.uv + node.uvDelta;
     glm::vec4 p(point.position, 1);
-    return {glm::dot(p, node.planarS), glm::dot(p, node.planarT)};
+    if (node.mapping == TextureMapping::planar) return {glm::dot(p, node.planarS), glm::dot(p, node.planarT)};
+    const glm::vec3 q = place(node, point);
+    const float turn = std::atan2(q.y, q.x) / (2 * std::numbers::pi_v<float>);
+    if (node.mapping == TextureMapping::cylindrical) return {turn + 0.5f, q.z};
+    const float length = glm::length(q);
+    const float polar = length > 0 ? std::acos(std::clamp(q.z / length, -1.f, 1.f)) : 0.f;
+    return {polar / std::numbers::pi_v<float>, turn < 0 ? turn + 1 : turn};
 }
 
 glm::vec3 Textures::evaluateImage(const Node& node, glm::vec2 st, TextureUse use) {

@@ -1,11 +1,12 @@
 // Texture graphs of a scene, ready to be evaluated at a point of a surface.
 //
 // pbrt-v4's conventions: images are looked up at (s, 1 - t); a checkerboard shows its first texture where
-// floor(s) + floor(t) is even; planar mapping works on the world position. Rays have no footprint here, so
-// there is no filtering beyond that between texels.
+// floor(s) + floor(t) is even; mappings other than uv work on the world position. Rays have no footprint
+// here, so there is no filtering beyond that between texels.
 #pragma once
 #include "scene/scene.h"
 
+#include <array>
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -14,6 +15,7 @@ namespace slant {
 struct TexturePoint {
     glm::vec3 position{0}; ///< world space
     glm::vec2 uv{0};
+    glm::vec3 normal{0, 0, 1}; ///< world space, unit
 };
 
 /// The meaning of a texture's value; pbrt treats image texels accordingly.
@@ -43,11 +45,18 @@ private:
         bool invert, constant;
         float scale;
         glm::vec3 value;
-        int child[3];
+        std::array<int, 4> child;
         glm::vec2 uvScale, uvDelta;
-        glm::vec4 planarS, planarT; ///< s = dot((x, y, z, 1), planarS)
+        glm::vec4 planarS, planarT; ///< s = dot((x, y, z, 1), planarS); rows of the transform if not planar
+        glm::vec4 row3;
         const Image* image;
+        int octaves;
+        float roughness, variation;
+        glm::vec3 direction;
     };
+    glm::vec3 evaluateRare(const Node& node, const TexturePoint& point, TextureUse use) const;
+    glm::vec3 mixed(const Node& node, float amount, const TexturePoint& point, TextureUse use) const;
+    static glm::vec3 place(const Node& node, const TexturePoint& point);
     static glm::vec2 map(const Node& node, const TexturePoint& point);
     static glm::vec3 texel(const Node& node, int x, int y);
     static glm::vec3 lookup(const Node& node, glm::vec2 st);

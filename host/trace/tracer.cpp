@@ -23,6 +23,13 @@ int floorDivide(int a, int b) {
 constexpr int kDepthProbes = 32;
 constexpr double kOutlierShare = 0.02;
 
+/// Lights without a place are said to be so many times as far away as the scene is large.
+constexpr float kFarAway = 100;
+
+float diagonalOf(const Box& box) {
+    return box.empty() ? 1.f : glm::length(box.max - box.min);
+}
+
 } // namespace
 
 Tracer::Tracer(const Scene& scene, Monitor& monitor, SlopeSource slopes)
@@ -61,11 +68,14 @@ void Tracer::trace(Rect pixels, int firstSample, int count, int samplesPerPixel,
     if (firstSample < 0 || count < 0 || count > samplesPerPixel - firstSample ||
         out.samples.size() != samples || !fits(out.radiance, false) || !fits(out.albedo, true) ||
         !fits(out.normal, out.albedo.empty()) || !fits(out.motion, true) || !fits(out.illumination, true) ||
-        !fits(out.reflectance, out.illumination.empty()) || !fits(out.reflection, out.illumination.empty()))
+        !fits(out.reflectance, out.illumination.empty()) || !fits(out.reflection, out.illumination.empty()) ||
+        !fits(out.position, true) || !fits(out.light, out.position.empty()) ||
+        !fits(out.blocker, out.position.empty()) || !fits(out.direct, out.position.empty()))
         throw Error(ErrorCode::usage, "the buffers do not fit the samples to trace");
     if (samples == 0) return;
-    TraceJob job{scene_,      camera_, geometry_, shading_, pattern,     pixels,
-                 firstSample, count,   out,       motion_,  findsImages_};
+    TraceJob job{scene_,  camera_, geometry_,    shading_,
+                 pattern, pixels,  firstSample,  count,
+                 out,     motion_, findsImages_, kFarAway * diagonalOf(geometry_.bounds())};
     std::mutex mutex;
     const int column0 = floorDivide(pixels.x0, kBlockSize),
               column1 = floorDivide(pixels.x1 - 1, kBlockSize) + 1;

@@ -43,6 +43,7 @@ TEST(FuzzSeeds, neverDoWorseThanAnError) {
     std::size_t files = 0;
     for (const auto& [name, target] : {std::pair("scene", &test::fuzzScene),
                                        {"ply", &test::fuzzPly},
+                                       {"picture", &test::fuzzPicture},
                                        {"deep_exr", &test::fuzzDeepExr},
                                        {"tlfr", &test::fuzzTlfr}})
         for (const auto& entry :

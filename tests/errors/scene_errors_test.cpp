@@ -1,6 +1,5 @@
 // Every kind of wrong scene text ends in one line with the place and what would be right.
 #include "support/scene_text.h"
-#include "support/temp_dir.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +8,6 @@ namespace slant {
 namespace {
 
 using test::errorOf;
-using testing::EndsWith;
 using testing::HasSubstr;
 
 struct Case {
@@ -49,14 +47,17 @@ TEST(SceneErrors, structure) {
          ":1:38: the object 'a' is defined twice"},
         {"WorldBegin ObjectBegin \"tree\" ObjectEnd\nObjectInstance \"treee\"",
          ":2:1: there is no object 'treee', did you mean 'tree'?"},
-        {"Attribute \"shapes\"", ":1:11: unknown attribute target \"shapes\", did you mean 'shape'?"},
-        {"Option \"sed\" 1", ":1:8: unknown option \"sed\", did you mean 'seed'?"},
+        {"Attribute \"shapes\" WorldBegin",
+         ":1:11: unknown attribute target \"shapes\", did you mean 'shape'?"},
+        {"Option \"sed\" 1 WorldBegin", ":1:8: unknown option \"sed\", did you mean 'seed'?"},
         {"Option \"seed\"", ":1:14: expected the value of option \"seed\", found the end of the file"},
-        {"Option \"forcediffuse\" true", ":1:23: option \"forcediffuse\" is supported only as false"},
-        {"ColorSpace \"aces2065-1\"", ":1:12: colour space \"aces2065-1\" is not supported, only \"srgb\""},
-        {"MediumInterface \"\" \"fog\"", ":1:20: participating media are not supported, only \"\""},
-        {"MakeNamedMedium \"fog\"",
-         ":1:1: unknown directive 'MakeNamedMedium', did you mean 'MakeNamedMaterial'?"},
+        {"Option \"forcediffuse\" true WorldBegin",
+         ":1:23: option \"forcediffuse\" is supported only as false"},
+        {"ColorSpace \"aces\" WorldBegin",
+         ":1:12: colour space \"aces\" is none of aces2065-1, dci-p3, rec2020 and srgb"},
+        {"WorldBegin MediumInterface \"\" \"fog\"", ":1:31: participating media are not supported"},
+        {"MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" WorldBegin",
+         ":1:1: participating media are not supported"},
     });
     std::string deep = "WorldBegin\n";
     for (int i = 0; i < 1001; ++i) deep += "AttributeBegin\n";
@@ -82,7 +83,7 @@ TEST(SceneErrors, parameterLists) {
             {"\"float the radius\" 1",
              ":2:16: expected a parameter such as \"float radius\", found \"float the radius\""},
             {"\"flaot radius\" 1", ":2:16: unknown parameter type 'flaot', did you mean 'float'?"},
-            {"\"color radius\" 1", ":2:16: parameter type 'color' is not from pbrt-v4; did you mean 'rgb'?"},
+            {"\"color radius\" 1", ":2:16: 'radius' has 1 numbers, not a multiple of 3 as type rgb needs"},
             {"\"integer radius\" 1",
              ":2:16: 'radius' of Shape \"sphere\" is given as integer, but must be float"},
             {"\"integer radius\" 1.5", ":2:33: expected an integer, found '1.5'"},
@@ -98,9 +99,8 @@ TEST(SceneErrors, parameterLists) {
             {"\"float radius\" 1 \"unclosed", ":2:33: this string has no closing quote in its line"},
         },
         shape);
-    check({{"\"bool remaproughness\" \"false\"",
-            ":2:44: expected true or false (without quotes), found \"false\""},
-           {"\"bool remaproughness\" 1", ":2:44: expected true or false (without quotes), found '1'"}},
+    check({{"\"bool remaproughness\" \"no\"", ":2:44: expected true or false, found \"no\""},
+           {"\"bool remaproughness\" 1", ":2:44: expected true or false, found '1'"}},
           "WorldBegin\nMaterial \"conductor\" ");
 }
 
@@ -130,9 +130,8 @@ TEST(SceneErrors, shapes) {
              ":2:53: 'N' has 1 items, but there are 3 vertices"},
             {"\"bilinearmesh\" \"point3 P\" [0 0 0 1 1 1 2 2 2 3 3 3] \"point2 uv\" [0 0]",
              ":2:59: 'uv' has 1 items, but there are 4 vertices"},
-            {"\"trianglemesh\" \"point3 P\" [0 0 0 1 1 1 2 2 2] \"vector3 S\" [0 0 1]",
-             ":2:53: Shape \"trianglemesh\" has no parameter 'S', or none that is supported, did you mean "
-             "'P'?"},
+            {"\"trianglemesh\" \"point3 P\" [0 0 0 1 1 1 2 2 2] \"vector3 Q\" [0 0 1]",
+             ":2:53: Shape \"trianglemesh\" has no parameter 'Q', or none that is supported"},
             {"\"plymesh\"", ":2:1: Shape \"plymesh\" needs \"string filename\""},
             {"\"plymesh\" \"string filename\" \"none.ply\"", ":2:17: none.ply: there is no such file"},
             {"\"plymesh\" \"string filename\" \"/\"", ":2:17: /: is not a regular file"},
@@ -144,13 +143,12 @@ TEST(SceneErrors, motion) {
     check({
         {"TransformTimes 1 0.5 WorldBegin", ":1:1: TransformTimes needs a start before the end"},
         {"TransformTimes 0 inf WorldBegin", ":1:18: 'inf' is not a finite number in the range of a float"},
-        {"ActiveTransform EndTime Scale 0 1 1 WorldBegin",
-         ":1:25: the transform here is singular: it cannot be inverted"},
+        {"ActiveTransform EndTime Scale 0 1 1\nCamera \"perspective\" WorldBegin",
+         ":2:1: the transform here is singular: it cannot be inverted"},
         {"WorldBegin\nActiveTransform EndTime\nScale -1 1 1\nShape \"sphere\"",
          ":4:1: the transform here mirrors at one of StartTime and EndTime, but not at the other: it would "
          "be singular in between"},
-        {"Camera \"perspective\" \"float shutteropen\" .5 \"float shutterclose\" .5 WorldBegin",
-         ":1:1: the shutter never opens: 'shutterclose' must be after 'shutteropen'"},
+
     });
 }
 
@@ -165,8 +163,10 @@ TEST(SceneErrors, options) {
          ":1:12: 'cropwindow' needs four numbers: x0, x1, y0, y1"},
         {"Film \"rgb\" \"float cropwindow\" [.5 .5 0 1] WorldBegin",
          ":1:1: the crop leaves no pixel of the film"},
-        {"Film \"rgb\" \"string sensor\" \"canon_eos_5d\" WorldBegin",
-         ":1:12: 'sensor' is \"canon_eos_5d\", but must be one of: cie1931"},
+        {"Film \"rgb\" \"string sensor\" \"canon_eos_5dd\" WorldBegin",
+         ":1:12: unknown sensor \"canon_eos_5dd\", did you mean 'canon_eos_5d'?"},
+        {"Film \"rgb\" \"float whitebalance\" 100 WorldBegin",
+         ":1:12: 'whitebalance' is 100, but must be 0 or at least 500"},
         {"PixelFilter \"gausian\" WorldBegin",
          ":1:1: pixel filter \"gausian\" is not supported, did you mean 'gaussian'?"},
         {"PixelFilter \"box\" \"float xradius\" 0 WorldBegin",
@@ -176,8 +176,9 @@ TEST(SceneErrors, options) {
         {"Sampler \"sobel\" WorldBegin", ":1:1: sampler \"sobel\" is not supported, did you mean 'sobol'?"},
         {"Sampler \"sobol\" \"integer pixelsamples\" 1000000000 WorldBegin",
          ":1:17: 'pixelsamples' is 1000000000, but must be at least 1 and at most 1048576"},
-        {"Integrator \"bdpt\" WorldBegin", ":1:1: integrator \"bdpt\" is not supported"},
-        {"Integrator \"path\" \"bool regularize\" true WorldBegin", ":1:19: 'regularize' is not supported"},
+        {"Integrator \"bdtp\" WorldBegin",
+         ":1:1: integrator \"bdtp\" is not supported, did you mean 'bdpt'?"},
+
         {"Integrator \"path\" \"integer maxdpth\" 1 WorldBegin",
          ":1:19: Integrator \"path\" has no parameter 'maxdpth', or none that is supported, did you mean "
          "'maxdepth'?"},
@@ -186,8 +187,8 @@ TEST(SceneErrors, options) {
          ":1:22: 'fov' is 180, but must be above 0 and at most 179.99"},
         {"Camera \"perspective\" \"float lensradius\" -1 WorldBegin",
          ":1:22: 'lensradius' is -1, but must be at least 0"},
-        {"Camera \"perspective\" \"float shutteropen\" 1 WorldBegin",
-         ":1:1: the shutter never opens: 'shutterclose' must be after 'shutteropen'"},
+        {"Camera \"perspective\" \"float shutteropen\" 2 WorldBegin",
+         ":1:1: the shutter closes before it opens: 'shutterclose' must be after 'shutteropen'"},
         {"Camera \"perspective\" \"string aperture\" \"pentagram\" WorldBegin",
          ":1:22: aperture \"pentagram\" is not one of disc, gaussian, square, pentagon, star, polygon, nor "
          "an "
@@ -210,7 +211,7 @@ TEST(SceneErrors, materialsAndTextures) {
     check(
         {
             {"Material \"difuse\"", ":2:1: material \"difuse\" is not supported, did you mean 'diffuse'?"},
-            {"Material \"\"", ":2:1: material \"\" is not supported"},
+            {"Material \"varnish\"", ":2:1: material \"varnish\" is not supported"},
             {"Material \"hair\"", ":2:1: material \"hair\" is not supported"},
             {"Material \"diffuse\" \"rgb reflectance\" [1 1 2]",
              ":2:20: 'reflectance' is 2, but must be at least 0 and at most 1"},
@@ -219,9 +220,10 @@ TEST(SceneErrors, materialsAndTextures) {
             {"Material \"diffuse\" \"float reflectance\" 1",
              ":2:20: 'reflectance' of Material \"diffuse\" is given as float, but must be rgb, spectrum, "
              "blackbody, texture"},
-            {"Material \"diffuse\" \"spectrum reflectance\" [400 .1 700 .2]",
-             ":2:20: 'reflectance': spectra that vary over 360 to 830 nm are not supported; give \"rgb "
-             "reflectance\""},
+            {"Material \"diffuse\" \"spectrum reflectance\" [400 .1 400 .2]",
+             ":2:20: 'reflectance': wavelengths must ascend, but 400 follows 400"},
+            {"Material \"diffuse\" \"spectrum reflectance\" \"none.spd\"",
+             ":2:20: 'reflectance': spectrum \"none.spd\" is not supported here; give \"rgb reflectance\""},
             {"Material \"conductor\" \"spectrum eta\" \"metal-Cu-ete\"",
              ":2:22: 'eta': spectrum \"metal-Cu-ete\" is not supported here; give \"rgb eta\", did you mean "
              "'metal-Cu-eta'?"},
@@ -260,13 +262,18 @@ TEST(SceneErrors, materialsAndTextures) {
                                                      "\"spectrum\", not \"floot\", did you mean 'float'?"},
             {"Texture \"a\" \"float\" \"constant\" Texture \"a\" \"float\" \"mix\"",
              ":2:32: the float texture 'a' is defined twice"},
-            {"Texture \"a\" \"float\" \"marble\"", ":2:1: texture kind \"marble\" is not supported"},
+            {"Texture \"a\" \"float\" \"marbel\"",
+             ":2:1: texture kind \"marbel\" is not supported, did you mean 'marble'?"},
+            {"Texture \"a\" \"float\" \"fbm\" \"integer octaves\" 100",
+             ":2:27: 'octaves' is 100, but must be at least 0 and at most 32"},
             {"Texture \"a\" \"float\" \"scale\" \"texture tex\" \"a\"",
              ":2:1: this texture is made of itself"},
-            {"Texture \"a\" \"float\" \"checkerboard\" \"integer dimension\" 3",
-             ":2:36: checkerboards of dimension 3 are not supported"},
-            {"Texture \"a\" \"float\" \"checkerboard\" \"string mapping\" \"spherical\"",
-             ":2:36: 'mapping' is \"spherical\", but must be one of: uv, planar"},
+            {"Texture \"a\" \"float\" \"checkerboard\" \"integer dimension\" 4",
+             ":2:36: 'dimension' is 4, but must be at least 2 and at most 3"},
+            {"Texture \"a\" \"float\" \"directionmix\" \"vector3 dir\" [0 0 0]",
+             ":2:36: 'dir' must not be 0 0 0"},
+            {"Texture \"a\" \"float\" \"checkerboard\" \"string mapping\" \"cubic\"",
+             ":2:36: 'mapping' is \"cubic\", but must be one of: uv, planar, spherical, cylindrical"},
             {"Texture \"a\" \"float\" \"constant\" \"float vlue\" 1",
              ":2:32: Texture \"a\" has no parameter 'vlue', or none that is supported, did you mean "
              "'value'?"},
@@ -288,15 +295,15 @@ TEST(SceneErrors, lights) {
         {
             {"LightSource \"laser\"", ":2:1: light \"laser\" is not supported"},
             {"LightSource \"pointt\"", ":2:1: light \"pointt\" is not supported, did you mean 'point'?"},
-            {"LightSource \"point\" \"rgb L\" [1 1 1]", ":2:21: LightSource \"point\" has no parameter 'L', "
-                                                        "or none that is supported, did you mean 'I'?"},
+            {"LightSource \"point\" \"rgb L\" [1 1 1]",
+             ":2:21: LightSource \"point\" has no parameter 'L', or none that is supported"},
             {"LightSource \"point\" \"rgb I\" [1 -1 1]", ":2:21: 'I' is -1, but must be at least 0"},
             {"LightSource \"distant\" \"point3 to\" [0 0 0]",
              ":2:1: a distant light needs 'from' and 'to' apart"},
             {"LightSource \"infinite\" \"blackbody L\" 10",
              ":2:24: 'L' is 10, but must be at least 500 and at most 1000000"},
-            {"LightSource \"infinite\" \"spectrum L\" \"stdillum-D50\"",
-             ":2:24: 'L': spectrum \"stdillum-D50\" is not supported here; give \"rgb L\", did you mean "
+            {"LightSource \"infinite\" \"spectrum L\" \"stdillum-D75\"",
+             ":2:24: 'L': spectrum \"stdillum-D75\" is not supported here; give \"rgb L\", did you mean "
              "'stdillum-D65'?"},
             {"LightSource \"infinite\" \"point3 portal\" [0 0 0]",
              ":2:24: 'portal' needs four corners, not 1"},
@@ -312,65 +319,20 @@ TEST(SceneErrors, lights) {
         "WorldBegin\n");
 }
 
-class SceneFileErrors : public testing::Test {
-protected:
-    std::string errorIn(const std::string& main) const {
-        SilentMonitor monitor;
-        try {
-            readScene(dir.file(main), monitor);
-        } catch (const Error& error) {
-            EXPECT_EQ(error.code(), ErrorCode::badInput);
-            return error.what();
-        }
-        return "";
-    }
-
-    test::TempDir dir;
-};
-
-TEST_F(SceneFileErrors, missingFiles) {
-    EXPECT_THAT(errorIn("none.pbrt"), EndsWith("none.pbrt: there is no such file"));
-    EXPECT_THAT(errorIn("."), EndsWith("is not a regular file"));
-    test::writeText(dir.file("a.pbrt"), "\n Include \"b.pbrt\"");
-    EXPECT_THAT(errorIn("a.pbrt"), testing::MatchesRegex(".*/a.pbrt:2:10: .*/b.pbrt: there is no such file"));
-}
-
-TEST_F(SceneFileErrors, namePlacesInIncludedFiles) {
-    test::writeText(dir.file("a.pbrt"), "WorldBegin Include \"b.pbrt\"");
-    test::writeText(dir.file("b.pbrt"), "\n\n  Shap");
-    EXPECT_THAT(errorIn("a.pbrt"), EndsWith("b.pbrt:3:3: unknown directive 'Shap', did you mean 'Shape'?"));
-}
-
-TEST_F(SceneFileErrors, includeLoops) {
-    test::writeText(dir.file("a.pbrt"), "WorldBegin\nInclude \"./a.pbrt\"");
-    EXPECT_THAT(errorIn("a.pbrt"), testing::MatchesRegex(".*/a.pbrt:2:1: .*/./a.pbrt includes itself"));
-    test::writeText(dir.file("b.pbrt"), "Include \"c.pbrt\"");
-    test::writeText(dir.file("c.pbrt"), "Include \"b.pbrt\"");
-    EXPECT_THAT(errorIn("b.pbrt"), testing::MatchesRegex(".*/c.pbrt:1:1: .*/b.pbrt includes itself"));
-    for (int i = 0; i < 40; ++i)
-        test::writeText(dir.file(fmt::format("d{}.pbrt", i)), fmt::format("Include \"d{}.pbrt\"", i + 1));
-    EXPECT_THAT(errorIn("d0.pbrt"),
-                testing::MatchesRegex(".*/d32.pbrt:1:1: files are included more than 32 deep"));
-}
-
-TEST_F(SceneFileErrors, importsThatDoNotClose) {
-    test::writeText(dir.file("a.pbrt"), "WorldBegin\nImport \"b.pbrt\"");
-    test::writeText(dir.file("b.pbrt"), "AttributeBegin");
-    EXPECT_THAT(errorIn("a.pbrt"),
-                EndsWith("a.pbrt:2:1: the imported file must close all that it opens, and nothing else"));
-    test::writeText(dir.file("c.pbrt"), "Import \"b.pbrt\"");
-    EXPECT_THAT(errorIn("c.pbrt"), EndsWith("c.pbrt:1:1: Import must stand after WorldBegin"));
-}
-
-TEST_F(SceneFileErrors, damagedImages) {
-    test::writeText(dir.file("t.png"), "\x89PNG\r\n\x1a\n");
-    test::writeText(dir.file("t.exr"), "no image");
-    for (const char* name : {"t.png", "t.exr"}) {
-        test::writeText(
-            dir.file("a.pbrt"),
-            fmt::format("WorldBegin Texture \"a\" \"float\" \"imagemap\" \"string filename\" \"{}\"", name));
-        EXPECT_THAT(errorIn("a.pbrt"), testing::MatchesRegex(fmt::format(".*/a.pbrt:1:43: .*/{}: .*", name)));
-    }
+TEST(SceneErrors, olderFiles) {
+    check(
+        {
+            {"Material \"uber\" \"color opacity\" [.5 .5 .5]",
+             ":2:17: an 'opacity' other than 1 of material \"uber\" is not supported"},
+            {"Material \"mix\" \"string namedmaterial1\" \"a\"",
+             ":2:1: Material \"mix\" needs \"string namedmaterial2\""},
+            {"LightSource \"point\" \"color scale\" [1 2 1]",
+             ":2:21: a 'scale' that is not grey is not supported here"},
+            {"Shape \"trianglemesh\" \"point P\" [0 0 0 1 0 0 0 1 0] \"float st\" [0 0 1]",
+             ":2:52: 'uv' has 3 numbers, not a multiple of 2"},
+            {"Volume \"homogeneous\"", ":2:1: participating media are not supported"},
+        },
+        "WorldBegin\n");
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 // fixed; a failure names its seed.
 #include "support/damage.h"
 #include "support/fuzz_targets.h"
+#include "support/make_picture.h"
 #include "support/ply_text.h"
 
 #include <gtest/gtest.h>
@@ -40,6 +41,14 @@ TEST(SceneMutations, neverBreakThePlyReader) {
         const auto [read, refused] = test::survive(test::fuzzPly, test::samplePly(format), 1000);
         EXPECT_GT(read, 20);
         EXPECT_GT(refused, 300);
+    }
+}
+
+TEST(SceneMutations, neverBreakThePictureReaders) {
+    for (const auto kind :
+         {test::PictureKind::jpeg, test::PictureKind::tga, test::PictureKind::hdr, test::PictureKind::pfm}) {
+        const auto [read, refused] = test::survive(test::fuzzPicture, test::pictureBytes(kind), 300);
+        EXPECT_GT(read + refused, 0);
     }
 }
 

@@ -44,12 +44,27 @@ TEST_F(ShadingParity, everyStageAtOddSizes) {
                 expectSame(discs(frame, spp, {.reflection = reflection}));
 }
 
+TEST_F(ShadingParity, shadowRays) {
+    for (const Rect frame : {Rect{0, 0, 61, 43}, kFrame, Rect{38, 5, 41, 6}})
+        for (const int spp : {1, 3, 8, 20, 50})
+            expectSame(discs(frame, spp, {.noise = 0.2f, .shadow = 0.4f}));
+    LightField field = discs(kFrame, 6, {.reflection = 0.5f, .shadow = 0.8f});
+    synthetic::Random random(6);
+    const float draws[] = {std::numeric_limits<float>::quiet_NaN(), 1e30f, 0, -1, 1e-30f, INFINITY, 3};
+    for (std::size_t i = 0; i < field.samples.size(); ++i)
+        for (auto plane : {&SampleSet::position, &SampleSet::light, &SampleSet::blocker, &SampleSet::direct})
+            if (random.bits() % 9 == 0)
+                (field.*plane)[i][int(i % 3)] = draws[random.bits() % std::size(draws)];
+    sanitize(field);
+    expectSame(field);
+}
+
 TEST_F(ShadingParity, otherFocusesAndThingsThatMove) {
     LensView view;
     view.slopeShift = -6;
     expectSame(discs(kFrame, 4), view);
     LightField moving = synthetic::sampleMoving(synthetic::movingDiscs(), kFrame, 20, 4, 7);
-    test::lightUp(moving, {});
+    test::lightUp(moving, {.shadow = 0.3f});
     expectSame(moving);
 }
 

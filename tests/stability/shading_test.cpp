@@ -53,6 +53,37 @@ TEST(ShadingStability, noiseFallsAndTexturesAndBrightnessStay) {
         }
 }
 
+/// Squared error of the picture of a plane against the shadow's closed form.
+double shadowError(float height, int spp, bool known, std::uint32_t seed, double* mean = nullptr) {
+    LightField field = plane(spp, {.noise = 0, .seed = seed, .shadow = height}, seed);
+    if (!known) field.resize(field.samples.size(), {.shading = true});
+    const Image image = reconstruct(field);
+    double sum = 0, offsets = 0;
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 8; x < image.width() - 8; ++x) {
+            const double off =
+                double(image.at(x, y, 0)) - 0.5 * double(test::shadowShare(height, float(x) + 0.5f));
+            sum += off * off;
+            offsets += off;
+        }
+    const double pixels = double(image.height()) * (image.width() - 16);
+    if (mean) *mean = offsets / pixels;
+    return sum / pixels;
+}
+
+// Measured: 1.2 to 2.5 times less error than without shadow rays, which lie at random here.
+TEST(ShadingStability, softShadowsOfAnyWidthComeOutOfShadowRays) {
+    for (const float height : {0.1f, 0.5f, 0.9f})
+        for (const int spp : {4, 8})
+            for (const std::uint32_t seed : {5u, 6u}) {
+                double mean;
+                const double with = shadowError(height, spp, true, seed, &mean),
+                             without = shadowError(height, spp, false, seed);
+                EXPECT_LT(with, without / 1.1) << height << ", " << spp << " samples";
+                EXPECT_NEAR(mean, 0, 0.0025) << height << ", " << spp << " samples";
+            }
+}
+
 TEST(ShadingStability, pictureDoesNotDependOnTheOneBefore) {
     const LightField field = lit(4, {});
     ReconstructOptions options;

@@ -1,5 +1,6 @@
 // Readers of untrusted bytes as fuzz targets: they succeed or throw Error, and nothing else.
 #pragma once
+#include "image/picture.h"
 #include "lightfield/deep_exr.h"
 #include "lightfield/summary.h"
 #include "lightfield/tlfr.h"
@@ -7,6 +8,7 @@
 #include "scene/ply.h"
 #include "support/memory_file.h"
 #include "support/scene_text.h"
+#include "support/temp_dir.h"
 
 #include <string>
 
@@ -29,6 +31,13 @@ inline bool fuzzScene(const std::string& bytes) {
 
 inline bool fuzzPly(const std::string& bytes) {
     return accepts([&] { parsePly(bytes, "fuzz.ply"); });
+}
+
+/// Of any kind; what is none of the others is taken for TGA.
+inline bool fuzzPicture(const std::string& bytes) {
+    static const TempDir dir;
+    writeText(dir.file("a.tga"), bytes);
+    return accepts([&] { readPicture(dir.file("a.tga")); });
 }
 
 /// What is accepted goes through the next stages, if it is small.

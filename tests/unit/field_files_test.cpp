@@ -188,14 +188,16 @@ TEST_F(FieldFiles, everyFilterAndAnEmptyDescription) {
 }
 
 TEST_F(FieldFiles, exrKeepsEveryChoiceOfPlanes) {
-    for (int choice = 0; choice < 8; ++choice) {
+    for (int choice = 0; choice < 12; ++choice) {
         SCOPED_TRACE(choice);
-        const SamplePlanes planes{(choice & 1) != 0, (choice & 2) != 0, (choice & 4) != 0};
+        const int shading = choice / 4; // nothing of it, illumination, shadow rays too
+        const SamplePlanes planes{(choice & 1) != 0, shading > 0, shading > 1, (choice & 2) != 0};
         const FieldFile file = test::fieldWithPlanes(planes);
         write("a.exr", file);
         const FieldFile got = read("a.exr");
         EXPECT_EQ(got.field.hasGuides(), planes.albedo);
         EXPECT_EQ(got.field.hasShading(), planes.shading);
+        EXPECT_EQ(got.field.hasShadows(), planes.shadows);
         EXPECT_EQ(got.field.moves(), planes.motion);
         EXPECT_EQ(got.field.normal.empty(), !planes.albedo && !planes.shading);
         expectSame(got, file);
@@ -203,7 +205,8 @@ TEST_F(FieldFiles, exrKeepsEveryChoiceOfPlanes) {
 }
 
 TEST_F(FieldFiles, tlfrLeavesOutAllPlanesButMotion) {
-    FieldFile file = test::fieldWithPlanes({.albedo = true, .shading = true, .motion = true});
+    FieldFile file =
+        test::fieldWithPlanes({.albedo = true, .shading = true, .shadows = true, .motion = true});
     for (const char* name : {"a.bin", "a.txt"}) {
         write(name, file);
         FieldFile expected = file;
@@ -377,10 +380,11 @@ TEST_F(FieldFiles, summaryCountsWhatSanitizeMeets) {
 }
 
 TEST_F(FieldFiles, sanitizeClearsPartsOfTheRadianceWithoutCounting) {
-    LightField field = test::fieldWithPlanes({.shading = true}).field;
+    LightField field = test::fieldWithPlanes({.shading = true, .shadows = true}).field;
     const LightField before = field, plain = richField().field;
     EXPECT_EQ(sanitize(field).total(), summarize(plain).defects.total());
-    for (const auto plane : {&SampleSet::illumination, &SampleSet::reflectance, &SampleSet::reflection})
+    for (const auto plane :
+         {&SampleSet::illumination, &SampleSet::reflectance, &SampleSet::reflection, &SampleSet::direct})
         for (std::size_t i = 0; i < field.samples.size(); ++i) {
             const glm::vec3 was = (before.*plane)[i];
             EXPECT_EQ((field.*plane)[i], glm::vec3(was.r, std::isfinite(was.g) ? was.g : 0.f, 0));

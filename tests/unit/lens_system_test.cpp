@@ -29,6 +29,19 @@ TEST(LensSystem, singleLensFollowsTheLensmakersEquation) {
     EXPECT_EQ(lens.exitPupil().radius, 5);
 }
 
+TEST(LensSystem, filmDistanceIsTheInverseOfFocusing) {
+    for (const char* name : test::kLensNames) {
+        const LensSystem lens = wideOpen(lensNamed(name));
+        for (const double focusMm : {8 * lens.nearestFocus(), 1e5}) {
+            const double film = lens.filmPosition(focusMm, {});
+            const double rear = lens.outline().back().vertex;
+            EXPECT_NEAR(lens.focusDistance(rear - film, {}) / focusMm, 1, 1e-6) << name;
+        }
+    }
+    test::expectError(ErrorCode::badInput, "nothing is in focus on a film 1 mm behind this lens",
+                      [] { wideOpen(lensNamed(test::kLensNames[0])).focusDistance(1, {}); });
+}
+
 TEST(LensSystem, focalLengthsAreThePublishedOnes) {
     const double published[][2] = {{50, 2}, {22, 2.7}, {250, 5.6}, {10, 4}}; // mm, f-number
     for (std::size_t i = 0; i < 4; ++i) {

@@ -207,6 +207,29 @@ TEST(SamplePass, partsOfTheRadianceAddUp) {
     }
 }
 
+TEST(SamplePass, shadowRaysTellWhatArrives) {
+    SilentMonitor monitor;
+    const Scene scene = readScene(std::string(SLANT_SOURCE_DIR) + "/scenes/shadows.pbrt", monitor);
+    const Tracer tracer(scene, monitor);
+    const Rect pixels{60, 100, 320, 150};
+    const SampleSet set = traceSet(tracer, pixels, 0, 2, 2, {.shading = true, .shadows = true});
+    EXPECT_TRUE(sameBits(set.radiance, traceSet(tracer, pixels, 0, 2, 2).radiance));
+    int blocked = 0, unblocked = 0;
+    for (std::size_t i = 0; i < set.samples.size(); ++i) {
+        const glm::vec3 toLight = set.light[i] - set.position[i],
+                        toBlocker = set.blocker[i] - set.position[i];
+        const bool free = set.blocker[i] == set.light[i];
+        ASSERT_EQ(set.illumination[i], free ? set.direct[i] : glm::vec3(0)) << i;
+        if (set.direct[i] == glm::vec3(0)) continue;
+        (free ? unblocked : blocked) += 1;
+        ASSERT_GT(set.light[i].y, 3.5f) << "the lamps";
+        ASSERT_LE(glm::length(toBlocker), glm::length(toLight));
+        ASSERT_LT(glm::length(glm::cross(toBlocker, toLight)), 1e-4f * glm::dot(toLight, toLight)) << i;
+    }
+    EXPECT_GT(blocked, 1000);
+    EXPECT_GT(unblocked, 1000);
+}
+
 TEST(SamplePass, overscanReachesAsFarAsTheBlur) {
     Scene scene = ballScene(64, 48);
     scene.camera.lensRadius = 1;

@@ -189,20 +189,26 @@ TEST(SceneLights, areReadWithTheirUnits) {
     EXPECT_TRUE(scene.areaLights.at(0).twoSided);
 }
 
-TEST(SceneLights, takeSquareMapsOnly) {
+TEST(SceneLights, takeSquareMapsAndThoseByLatitudeAndLongitude) {
     const test::TempDir dir;
     writeExr(dir.file("sky.exr"), Image::rgb(4, 4));
-    writeExr(dir.file("latlong.exr"), Image::rgb(4, 2));
+    writeExr(dir.file("latlong.exr"), Image::rgb(8, 4));
+    writeExr(dir.file("wide.exr"), Image::rgb(4, 3));
     SilentMonitor monitor;
     const std::string light = "WorldBegin LightSource \"infinite\" \"string filename\" ";
     EXPECT_EQ(readSceneText(light + "\"sky.exr\"", dir.file("s.pbrt"), monitor).lights.at(0).imageIndex, 0);
+    const Scene latLong = readSceneText(light + "\"latlong.exr\"", dir.file("s.pbrt"), monitor);
+    const Image& made = latLong.images.at(std::size_t(latLong.lights.at(0).imageIndex));
+    EXPECT_EQ(made.width(), 6);
+    EXPECT_EQ(made.height(), 6);
     try {
-        readSceneText(light + "\"latlong.exr\"", dir.file("s.pbrt"), monitor);
+        readSceneText(light + "\"wide.exr\"", dir.file("s.pbrt"), monitor);
         ADD_FAILURE();
     } catch (const Error& error) {
         EXPECT_THAT(error.what(),
                     HasSubstr("s.pbrt:1:35: the image of an infinite light must be square (equal-area "
-                              "octahedral), but latlong.exr is 4x2"));
+                              "octahedral), or twice as wide as high (latitude and longitude), but wide.exr "
+                              "is 4x3"));
     }
 }
 

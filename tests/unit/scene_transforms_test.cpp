@@ -101,6 +101,20 @@ TEST(SceneTransforms, moveWhileTheShutterIsOpen) {
     EXPECT_EQ(early.shapes.at(0).worldFromObject.at[0][3].x, 8);
 }
 
+TEST(SceneTransforms, thatFlattenShapesLeaveThemOut) {
+    test::RecordingMonitor monitor;
+    const Scene scene =
+        readSceneText("WorldBegin ObjectBegin \"o\" Shape \"sphere\" ObjectEnd\n"
+                      "AttributeBegin Scale 1 0 1 Shape \"sphere\" ObjectInstance \"o\" AttributeEnd\n"
+                      "Shape \"disk\"",
+                      "s.pbrt", monitor);
+    EXPECT_EQ(scene.shapes.size(), 1u);
+    EXPECT_TRUE(scene.instances.empty());
+    EXPECT_EQ(monitor.warnings,
+              std::vector<std::string>{
+                  "s.pbrt:2:28: the transform here is singular: what it flattens is left out (2 times)"});
+}
+
 TEST(SceneTransforms, areRefusedWhenTheyCannotBeInverted) {
     const std::string mirrors = "ActiveTransform EndTime Scale 1 -1 1 ActiveTransform All\n",
                       message = "the transform here mirrors at one of StartTime and EndTime, but not at the "
@@ -110,19 +124,21 @@ TEST(SceneTransforms, areRefusedWhenTheyCannotBeInverted) {
     EXPECT_EQ(errorOf("WorldBegin ObjectBegin \"a\" Shape \"sphere\" ObjectEnd " + mirrors +
                       "ObjectInstance \"a\""),
               "s.pbrt:2:1: " + message);
-    EXPECT_EQ(errorOf("WorldBegin\nActiveTransform EndTime Scale 1 0 1"),
-              "s.pbrt:2:25: the transform here is singular: it cannot be inverted");
+    const std::string singular = ": the transform here is singular: it cannot be inverted";
+    EXPECT_EQ(errorOf("ActiveTransform EndTime Scale 1 0 1\nCamera \"perspective\" WorldBegin"),
+              "s.pbrt:2:1" + singular);
     EXPECT_EQ(
         errorOf(
             "TransformTimes 0 1 ActiveTransform EndTime Translate 1 0 0 Identity ActiveTransform StartTime "
             "Identity WorldBegin Shape \"sphere\""),
         "");
-    EXPECT_EQ(errorOf("Scale 1 0 1"), "s.pbrt:1:1: the transform here is singular: it cannot be inverted");
+    EXPECT_EQ(errorOf("WorldBegin Scale 1 0 1 LightSource \"point\""), "s.pbrt:1:24" + singular);
+    EXPECT_EQ(errorOf("WorldBegin Scale 1 0 1 Texture \"t\" \"float\" \"windy\""), "s.pbrt:1:24" + singular);
     EXPECT_EQ(errorOf("Scale 1e-30 1e-30 1e-30 WorldBegin"), "");
     EXPECT_EQ(errorOf("Scale 1e30 1 1 Scale 1e30 1 1"),
               "s.pbrt:1:16: the transform here has numbers beyond the range of a float");
-    EXPECT_EQ(errorOf("Transform [1 0 0 0  0 1 0 0  1 1 0 0  0 0 0 1]"),
-              "s.pbrt:1:1: the transform here is singular: it cannot be inverted");
+    EXPECT_EQ(errorOf("Transform [1 0 0 0  0 1 0 0  1 1 0 0  0 0 0 1] Camera \"perspective\" WorldBegin"),
+              "s.pbrt:1:48" + singular);
     EXPECT_EQ(
         errorOf("Transform [1 0 0 .5  0 1 0 0  0 0 1 0  0 0 0 1]"),
         "s.pbrt:1:1: this matrix is not an affine transform: its 4th, 8th, 12th and 16th number must be 0, "

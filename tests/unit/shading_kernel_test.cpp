@@ -113,5 +113,24 @@ TEST(ShadingFilter, bandsCoverAllRowsWithTheirSurroundings) {
     EXPECT_EQ(next, whole[0].layout.origin.y + whole[0].layout.size.y);
 }
 
+TEST(ShadingKernel, shadowRaysEndWhereSomethingIsInTheWay) {
+    LightField field;
+    field.samples.resize(1);
+    field.resize(1, {.shading = true, .shadows = true});
+    const vec3 from(1, 2, 3), way(0, 8, 0);
+    const auto rayTo = [&](vec3 blocker, vec3 light) {
+        field.position[0] = from;
+        field.blocker[0] = blocker;
+        field.light[0] = light;
+        return shadowRayOf(field, 0);
+    };
+    EXPECT_EQ(rayTo(from + 0.25f * way, from + way), vec4(from, 0.25f));
+    EXPECT_EQ(rayTo(from + way, from + way), vec4(from, kUnblocked));
+    EXPECT_EQ(rayTo(from, from).w, 0) << "no ray";
+    EXPECT_GT(rayTo(from, from + way).w, 0) << "blocked at once";
+    EXPECT_EQ(rayTo(from, vec3(INFINITY)).w, 0);
+    EXPECT_EQ(rayTo(vec3(std::numeric_limits<float>::quiet_NaN()), from + way).w, 0);
+}
+
 } // namespace
 } // namespace slant

@@ -1,0 +1,137 @@
+// Text of pbrt-v2 and -v3 is read as the pbrt-v4 text that stands beside it.
+#include "support/scene_text.h"
+#include "support/temp_dir.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace slant {
+namespace {
+
+using test::sceneOf;
+using test::worldOf;
+
+std::vector<std::string> warningsOf(const std::string& text) {
+    test::RecordingMonitor monitor;
+    readSceneText(text, "s.pbrt", monitor);
+    return monitor.warnings;
+}
+
+const Texture& reflectanceOf(const Scene& scene, std::size_t material) {
+    return scene.textures.at(std::size_t(scene.materials.at(material).reflectance));
+}
+
+TEST(OlderPbrt, saysSoOnce) {
+    EXPECT_THAT(warningsOf("Film \"image\" Renderer \"sampler\" WorldBegin Material \"matte\" WorldEnd"),
+                testing::ElementsAre("s.pbrt:1:1: this is of an older pbrt; the scene is read as pbrt's own "
+                                     "upgrade translates it"));
+    EXPECT_THAT(warningsOf("Film \"rgb\" WorldBegin Material \"diffuse\""), testing::IsEmpty());
+}
+
+TEST(OlderPbrt, options) {
+    const Scene scene =
+        sceneOf("Film \"image\" \"integer xresolution\" 64 \"integer yresolution\" 48 "
+                "\"float scale\" 2.5 \"float maxsampleluminance\" 7\n"
+                "PixelFilter \"gaussian\" \"float xwidth\" 3 \"float ywidth\" 2 \"float alpha\" 2\n"
+                "Sampler \"lowdiscrepancy\" \"integer pixelsamples\" 5\n"
+                "SurfaceIntegrator \"directlighting\" \"string strategy\" \"one\"\n"
+                "VolumeIntegrator \"emission\"\n"
+                "WorldBegin");
+    EXPECT_EQ(scene.film.xResolution, 64);
+    EXPECT_FLOAT_EQ(scene.film.imagingRatio, 2.5f);
+    EXPECT_EQ(scene.film.maxComponentValue, 7);
+    EXPECT_EQ(scene.filter.radius, glm::vec2(3, 2));
+    EXPECT_FLOAT_EQ(scene.filter.sigma, 0.5f);
+    EXPECT_EQ(scene.pixelSamples, 5);
+    EXPECT_EQ(scene.maxDepth, 1);
+    EXPECT_EQ(sceneOf("Sampler \"adaptive\" \"integer minsamples\" 2 \"integer maxsamples\" 9 WorldBegin")
+                  .pixelSamples,
+              9);
+}
+
+TEST(OlderPbrt, materials) {
+    const Scene scene = worldOf(
+        "Material \"matte\" \"color Kd\" [.1 .2 .3] \"float sigma\" 20\n"
+        "Material \"plastic\" \"color Kd\" [.4 .5 .6] \"color Ks\" [.1 .1 .1] \"float roughness\" .05\n"
+        "Material \"plastic\" \"color Kd\" [.4 .5 .6] \"color Ks\" [0 0 0] \"float roughness\" .05\n"
+        "Material \"uber\" \"rgb Kd\" [.7 .7 .7] \"float index\" 1.3 \"rgb opacity\" [1 1 1]\n"
+        "Material \"substrate\" \"color Kd\" [.3 .3 .3] \"color Ks\" [.5 .5 .5] \"float uroughness\" .1\n"
+        "Material \"mirror\" \"color Kr\" [.9 .9 .9]\n"
+        "Material \"metal\" \"float roughness\" .2\n"
+        "Material \"disney\" \"color color\" [.2 .2 .2] \"float metallic\" 1");
+    using Kind = MaterialKind;
+    const Kind kinds[] = {Kind::diffuse,   Kind::diffuse,       Kind::coatedDiffuse,
+                          Kind::diffuse,   Kind::coatedDiffuse, Kind::coatedDiffuse,
+                          Kind::conductor, Kind::conductor,     Kind::diffuse};
+    for (std::size_t i = 0; i < std::size(kinds); ++i) EXPECT_EQ(scene.materials.at(i).kind, kinds[i]) << i;
+    EXPECT_EQ(reflectanceOf(scene, 1).value, glm::vec3(.1f, .2f, .3f));
+    EXPECT_EQ(reflectanceOf(scene, 2).value, glm::vec3(.4f, .5f, .6f));
+    EXPECT_EQ(reflectanceOf(scene, 3).value, glm::vec3(.4f, .5f, .6f));
+    EXPECT_EQ(scene.materials[4].interfaceEta, 1.3f);
+    EXPECT_EQ(reflectanceOf(scene, 8).value, glm::vec3(.2f));
+    const Scene silver =
+        worldOf("Material \"conductor\" \"spectrum eta\" \"metal-Ag-eta\" \"spectrum k\" \"metal-Ag-k\"");
+    const auto etaOf = [](const Scene& s, std::size_t i) {
+        return s.textures.at(std::size_t(s.materials.at(i).eta)).value;
+    };
+    EXPECT_EQ(etaOf(scene, 6), etaOf(silver, 1));
+    // Metals by the files that came with pbrt-v2.
+    const Scene gold =
+        worldOf("Material \"metal\" \"spectrum eta\" \"spds/metals/Au.eta.spd\" \"spectrum k\" "
+                "\"spds/metals/Au.k.spd\"\n"
+                "Material \"conductor\" \"spectrum eta\" \"metal-Au-eta\" \"spectrum k\" \"metal-Au-k\"");
+    EXPECT_EQ(etaOf(gold, 1), etaOf(gold, 2));
+}
+
+TEST(OlderPbrt, namesMayBeTakenAgain) {
+    const Scene scene = worldOf("MakeNamedMaterial \"a\" \"string type\" \"matte\" \"color Kd\" [.1 .1 .1]\n"
+                                "NamedMaterial \"a\" Shape \"sphere\"\n"
+                                "MakeNamedMaterial \"a\" \"string type\" \"matte\" \"color Kd\" [.2 .2 .2]\n"
+                                "NamedMaterial \"a\" Shape \"sphere\"");
+    EXPECT_EQ(reflectanceOf(scene, std::size_t(scene.shapes.at(0).materialIndex)).value, glm::vec3(.1f));
+    EXPECT_EQ(reflectanceOf(scene, std::size_t(scene.shapes.at(1).materialIndex)).value, glm::vec3(.2f));
+}
+
+TEST(OlderPbrt, texturesLightsShapes) {
+    const Scene scene =
+        worldOf("Texture \"a\" \"color\" \"constant\" \"color value\" [.1 .2 .3]\n"
+                "Texture \"b\" \"color\" \"scale\" \"texture tex1\" \"a\" \"color tex2\" [.5 .5 .5]\n"
+                "Texture \"c\" \"color\" \"scale\" \"texture tex1\" \"a\" \"color tex2\" [.5 .6 .5]\n"
+                "LightSource \"point\" \"color I\" [1 2 3] \"color scale\" [2 2 2] \"point from\" [1 2 3] "
+                "\"integer nsamples\" 4\n"
+                "LightSource \"infinite\" \"blackbody L\" [5000 3]\n"
+                "AreaLightSource \"area\" \"color L\" [1 1 1]\n"
+                "Shape \"trianglemesh\" \"point P\" [0 0 0 1 0 0 0 1 0] \"float st\" [0 0 1 0 0 1] \"bool "
+                "discarddegenerateUVs\" \"true\"");
+    EXPECT_EQ(scene.lights.at(0).scale, 2);
+    EXPECT_EQ(scene.lights.at(0).from, glm::vec3(1, 2, 3));
+    EXPECT_EQ(scene.lights.at(1).scale, 3);
+    EXPECT_EQ(scene.areaLights.size(), 1u);
+    EXPECT_EQ(scene.meshes.at(0).uvs.at(1), glm::vec2(1, 0));
+    const auto count = [&](TextureKind kind) {
+        return std::count_if(scene.textures.begin(), scene.textures.end(),
+                             [&](const Texture& t) { return t.kind == kind; });
+    };
+    EXPECT_EQ(count(TextureKind::scale), 1);
+    EXPECT_EQ(count(TextureKind::product), 1);
+}
+
+TEST(OlderPbrt, attributesAndObjectsMayInterleave) {
+    const Scene scene =
+        sceneOf("Film \"image\" WorldBegin AttributeBegin ObjectBegin \"o\" Shape \"sphere\" AttributeEnd "
+                "ObjectEnd ObjectInstance \"o\" WorldEnd");
+    EXPECT_EQ(scene.objects.at(0).shapes.size(), 1u);
+    EXPECT_EQ(scene.instances.size(), 1u);
+}
+
+TEST(OlderPbrt, instantsAreExposedForASecond) {
+    const Scene scene =
+        sceneOf("Camera \"perspective\" \"float shutteropen\" 0.25 \"float shutterclose\" 0.25\n"
+                "WorldBegin ActiveTransform EndTime Translate 8 0 0 Shape \"sphere\"");
+    EXPECT_EQ(scene.film.imagingRatio, 1);
+    EXPECT_GT(scene.camera.shutterClose, scene.camera.shutterOpen);
+    EXPECT_LT(scene.camera.shutterClose, 0.26f);
+}
+
+} // namespace
+} // namespace slant
