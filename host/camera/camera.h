@@ -1,4 +1,4 @@
-// The camera of a scene, of whatever kind. Both kinds offer
+// The camera of a scene, of whatever kind. All kinds offer
 //
 //     CameraSample sample(glm::vec2 raster, glm::vec2 square, float time) const
 //                                                a ray, its lens position and weight
@@ -7,6 +7,8 @@
 //     glm::dmat4x3 pinholeFromCamera() const     what the middle of the lens sees, in homogeneous coordinates
 #pragma once
 #include "camera/compound_lens.h"
+#include "camera/parallel_view.h"
+#include "camera/spherical_view.h"
 #include "camera/thin_lens.h"
 #include "scene/transforms.h"
 
@@ -41,6 +43,10 @@ public:
             return camera.pinholeFromCamera() * affineInverse(camera.worldFromCamera().at(time));
         });
     }
+    /// Whether depths don't matter for where points are seen.
+    bool isParallel() const { return std::holds_alternative<ParallelView>(kind_); }
+    /// Whether points that move straight are seen to do so.
+    bool isProjective() const { return !std::holds_alternative<SphericalView>(kind_); }
     /// The lens, if the camera is of that kind.
     const CompoundLens* compoundLens() const { return std::get_if<CompoundLens>(&kind_); }
 
@@ -48,9 +54,19 @@ public:
     LensMap lensMap() const { return compoundLens() ? compoundLens()->lensMap() : LensMap(); }
 
 private:
-    using Kind = std::variant<ThinLens, CompoundLens>;
+    using Kind = std::variant<ThinLens, CompoundLens, ParallelView, SphericalView>;
     static Kind make(const Scene& scene) {
         if (scene.realistic) return CompoundLens(*scene.realistic, scene.camera.worldFromCamera, scene.film);
+        switch (scene.camera.projection) {
+        case Projection::perspective:
+            break;
+        case Projection::parallel:
+            if (scene.camera.lensRadius == 0) return ParallelView(scene.camera, scene.film);
+            break;
+        case Projection::equalArea:
+        case Projection::equirectangular:
+            return SphericalView(scene.camera, scene.film);
+        }
         return ThinLens(scene.camera, scene.film);
     }
 

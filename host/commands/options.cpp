@@ -49,6 +49,19 @@ void addSeedOption(CLI::App& command, CommonOptions& options) {
                              "seed of the sampling pattern (default 0)");
 }
 
+void addSlopesOption(CLI::App& command, CommonOptions& options) {
+    const auto slopes = [&options](const std::string& text) {
+        if (text != "optics" && text != "surface")
+            throw CLI::ValidationError("--slopes", fmt::format("'{}' is neither optics nor surface", text));
+        options.slopes = text == "optics" ? SlopeSource::optics : SlopeSource::surface;
+    };
+    command
+        .add_option_function<std::string>("--slopes", slopes,
+                                          "how what is seen in mirrors and glass moves over the lens: optics "
+                                          "(default), or as their surface does: surface")
+        ->type_name("NAME");
+}
+
 void addSamplingOptions(CLI::App& command, CommonOptions& options) {
     addNumber<int>(command, "--spp", options.spp, 1, kMaxSamplesPerPixel,
                    "samples per pixel (default: the scene's pixelsamples)");

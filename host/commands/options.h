@@ -2,6 +2,7 @@
 #pragma once
 #include "base/rect.h"
 #include "reconstruct/options.h"
+#include "trace/sample_options.h"
 
 #include <CLI/CLI.hpp>
 #include <charconv>
@@ -19,6 +20,7 @@ struct CommonOptions {
     std::optional<int> spp; ///< input samples per pixel; unset: what the scene asks for
     std::uint64_t seed = 0;
     std::optional<Rect> crop; ///< pixels; unset: what the scene asks for
+    SlopeSource slopes = SlopeSource::optics;
     // How to reconstruct.
     int outSpp = 128; ///< output samples per pixel
     Method method = Method::automatic;
@@ -37,6 +39,8 @@ struct CommonOptions {
 void addSeedOption(CLI::App& command, CommonOptions& options);
 /// --spp, --seed, --crop
 void addSamplingOptions(CLI::App& command, CommonOptions& options);
+/// --slopes
+void addSlopesOption(CLI::App& command, CommonOptions& options);
 /// --out-spp, --method, --window-..., --device, --memory
 void addReconstructionOptions(CLI::App& command, CommonOptions& options);
 /// Throws Error(usage) for options of a method that was not chosen.

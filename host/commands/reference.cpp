@@ -17,7 +17,8 @@ void runReference(PictureOptions options) {
     const Scene scene = readSceneFor(options.input, options.reading, options.common, monitor);
     if (options.output.empty()) options.output = scene.film.filename;
     checkOutputs(options);
-    const Tracer tracer(scene, monitor);
+    // Slopes don't count here, and depths for auxiliary channels alone.
+    const Tracer tracer(scene, monitor, options.auxiliary ? SlopeSource::optics : SlopeSource::surface);
     BruteForce result = bruteForce(scene, tracer, options.common.seed, monitor, options.auxiliary);
     warnOf(result.defects, result.emptyPixels, monitor);
     result.image.displayWindow = {0, 0, scene.film.xResolution, scene.film.yResolution};

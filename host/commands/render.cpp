@@ -30,6 +30,7 @@ void runRender(RenderCommand options) {
     RenderOptions rendering;
     rendering.sampling.samplesPerPixel = scene.pixelSamples;
     rendering.sampling.seed = common.seed;
+    rendering.sampling.slopes = common.slopes;
     rendering.reconstruction = reconstructOptions(common, scene.filter, backend);
     rendering.auxiliary = options.picture.auxiliary;
     rendering.compareWithCpu = options.compareWithCpu;
@@ -51,6 +52,7 @@ void addRender(CLI::App& program) {
         program.add_subcommand("render", "Trace a few samples per pixel and reconstruct the picture");
     const auto options = std::make_shared<RenderCommand>();
     addPictureOptions(*command, options->picture);
+    addSlopesOption(*command, options->picture.common);
     addReconstructionOptions(*command, options->picture.common);
     addCompareOption(*command, options->compareWithCpu);
     command->callback([options] { runRender(*options); });

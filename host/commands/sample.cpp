@@ -37,7 +37,7 @@ void runSample(const FieldOptions& options) {
     TerminalMonitor monitor(TerminalMonitor::styleOfStderr(common.quiet));
     checkOptions(options);
     const Scene scene = readSceneFor(options.scene, options.reading, common, monitor);
-    const Tracer tracer(scene, monitor);
+    const Tracer tracer(scene, monitor, common.slopes);
     SampleOptions sampling;
     sampling.samplesPerPixel = scene.pixelSamples;
     sampling.seed = common.seed;
@@ -74,6 +74,7 @@ void addSample(CLI::App& program) {
     command->add_flag("--shading", options->shading,
                       "record the parts of the radiance that noise is filtered by");
     addSamplingOptions(*command, options->common);
+    addSlopesOption(*command, options->common);
     addRunOptions(*command, options->common);
     command->callback([options] { runSample(*options); });
 }

@@ -54,7 +54,7 @@ Rendering render(const Scene& scene, const RenderOptions& options, Backend& back
 
     Rendering result;
     {
-        const Tracer tracer(scene, monitor);
+        const Tracer tracer(scene, monitor, sampling.slopes);
         result.traced = traceField(tracer, scene, sampling, monitor);
         result.metadata = metadataOf(scene, tracer.camera(), scene.path, sampling.seed);
     }

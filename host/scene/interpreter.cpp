@@ -210,7 +210,8 @@ void Interpreter::finish() {
         throw syntaxError(saved_.back().where, "this {} is never closed",
                           saved_.back().isObject ? "ObjectBegin" : "AttributeBegin");
     textures_.buildAll();
-    materials_.build(scene_, textures_);
+    materials_.build(scene_, textures_, files_);
+    dropInterfaces(scene_);
     for (const PendingInstance& instance : instances_)
         issues_.attempt("it is left out", [&] { place(instance); });
 }

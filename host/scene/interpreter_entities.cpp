@@ -225,7 +225,7 @@ void Interpreter::areaLightSource(Tokenizer& tokens, const Position& where) {
     state_.areaLightIndex = -1;
     std::string kind = stringOf(tokens.next());
     ParameterList values = list("AreaLightSource", kind, tokens, where, defaults(AttributeTarget::light));
-    scene_.areaLights.push_back(readAreaLight(kind, values));
+    scene_.areaLights.push_back(readAreaLight(kind, values, files_));
     state_.areaLightIndex = int(scene_.areaLights.size()) - 1;
 }
 
@@ -249,7 +249,7 @@ void Interpreter::shape(Tokenizer& tokens, const Position& where) {
     if (inObject && state_.areaLightIndex >= 0)
         issues_.note(where, "shapes of an object cannot emit light, as in pbrt; this one is dark");
     auto& target = inObject ? scene_.objects[std::size_t(openObject_)].shapes : scene_.shapes;
-    for (Shape& shape : readShapes(kind, values, scene_, files_)) {
+    for (Shape& shape : readShapes(kind, values, scene_, files_, textures_)) {
         shape.worldFromObject = *worldFromObject;
         shape.reverseOrientation = state_.reverseOrientation;
         shape.materialIndex = state_.materialIndex;

@@ -14,6 +14,6 @@ Light readLight(const std::string& kind, ParameterList& parameters, const glm::d
                 SceneFiles& files);
 
 /// Throws Error(badInput) as above.
-AreaLight readAreaLight(const std::string& kind, ParameterList& parameters);
+AreaLight readAreaLight(const std::string& kind, ParameterList& parameters, SceneFiles& files);
 
 } // namespace slant

@@ -1,36 +1,43 @@
 #include "scene/material_table.h"
 
 #include "base/suggest.h"
+#include "scene/scene_files.h"
 #include "scene/spelling.h"
 #include "scene/texture_table.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
 
 namespace slant {
 namespace {
 
 const ParameterList::Types kColourTypes{"rgb", "spectrum", "blackbody", "texture"};
 
-constexpr std::string_view kKinds[] = {"diffuse", "coateddiffuse", "conductor"};
-
 // pbrt does not limit these parameters of the random walk in a coating; these bounds limit the cost of a
 // sample.
 constexpr int kMaxLayerDepth = 1000, kMaxLayerSamples = 1000;
+constexpr int kMaxMixDepth = 32;
 
-void readRoughness(Material& material, ParameterList& parameters, TextureTable& textures) {
-    const int both = textures.floatTexture(parameters, "roughness", 0.f, kNonNegative);
-    const int alongU = textures.floatTexture(parameters, "uroughness", std::nullopt, kNonNegative);
-    const int alongV = textures.floatTexture(parameters, "vroughness", std::nullopt, kNonNegative);
-    material.uRoughness = alongU >= 0 ? alongU : both;
-    material.vRoughness = alongV >= 0 ? alongV : both;
+/// Roughness along u and v, of parameters whose names begin like this.
+std::array<int, 2> roughness(const std::string& prefix, ParameterList& parameters, TextureTable& textures) {
+    const auto read = [&](const char* name, std::optional<float> fallback) {
+        return textures.floatTexture(parameters, prefix + name, fallback, kNonNegative);
+    };
+    const int both = read("roughness", 0.f), alongU = read("uroughness", {}), alongV = read("vroughness", {});
+    return {alongU >= 0 ? alongU : both, alongV >= 0 ? alongV : both};
+}
+
+void readRoughness(Material& material, ParameterList& parameters, TextureTable& textures,
+                   const std::string& prefix = "") {
+    const auto [u, v] = roughness(prefix, parameters, textures);
+    material.uRoughness = u;
+    material.vRoughness = v;
     material.remapRoughness = parameters.flag("remaproughness", true);
 }
 
-void readCoatedDiffuse(Material& material, ParameterList& parameters, TextureTable& textures) {
-    material.kind = MaterialKind::coatedDiffuse;
-    material.reflectance =
-        textures.spectrumTexture(parameters, "reflectance", SpectrumUse::albedo, glm::vec3(0.5f));
-    readRoughness(material, parameters, textures);
-    if (const Parameter* eta = parameters.find("eta", {"float", "spectrum"}))
-        material.interfaceEta = eta->type == "float" ? *parameters.number("eta", kPositive) : glassEta(*eta);
+/// What lies between a coat's interface and its base.
+void readGap(Material& material, ParameterList& parameters, TextureTable& textures) {
     material.thickness = textures.floatTexture(parameters, "thickness", 0.01f, kNonNegative);
     material.g = parameters.number("g", 0, {-1, 1});
     material.albedo = textures.spectrumTexture(parameters, "albedo", SpectrumUse::albedo, glm::vec3(0));
@@ -38,42 +45,114 @@ void readCoatedDiffuse(Material& material, ParameterList& parameters, TextureTab
     material.sampleCount = parameters.integer("nsamples", 1, 1, kMaxLayerSamples);
 }
 
-void readConductor(Material& material, ParameterList& parameters, TextureTable& textures) {
-    material.kind = MaterialKind::conductor;
+/// The index of refraction of an interface, the same for all colours.
+void readIndex(Material& material, ParameterList& parameters, std::string_view name) {
+    if (const Parameter* eta = parameters.find(name, {"float", "spectrum"}))
+        material.interfaceEta = eta->type == "float" ? *parameters.number(name, kPositive) : glassEta(*eta);
+}
+
+void readDiffuse(Material& material, ParameterList& parameters, TextureTable& textures) {
+    material.kind = MaterialKind::diffuse;
     material.reflectance =
-        textures.spectrumTexture(parameters, "reflectance", SpectrumUse::albedo, std::nullopt);
-    if (material.reflectance >= 0) {
-        for (const std::string_view name : {"eta", "k"})
-            if (parameters.find(name, kColourTypes))
-                throw badInput(parameters.positionOf(name),
-                               "a conductor has either 'reflectance' or 'eta' and 'k'");
-    } else if (const std::optional<Metal> metal =
-                   sampledMetal(parameters.find("eta", kColourTypes), parameters.find("k", kColourTypes))) {
-        material.eta = textures.constant(metal->eta);
-        material.k = textures.constant(metal->k);
-    } else {
-        material.eta = textures.spectrumTexture(parameters, "eta", SpectrumUse::unbounded,
-                                                metalSpectrum("metal-Cu-eta"));
-        material.k =
-            textures.spectrumTexture(parameters, "k", SpectrumUse::unbounded, metalSpectrum("metal-Cu-k"));
-    }
+        textures.spectrumTexture(parameters, "reflectance", SpectrumUse::albedo, glm::vec3(0.5f));
+}
+
+void readDiffuseTransmission(Material& material, ParameterList& parameters, TextureTable& textures) {
+    material.kind = MaterialKind::diffuseTransmission;
+    const auto part = [&](std::string_view name) {
+        return textures.spectrumTexture(parameters, name, SpectrumUse::albedo, glm::vec3(0.25f));
+    };
+    material.reflectance = part("reflectance");
+    material.transmittance = part("transmittance");
+    material.scale = parameters.number("scale", 1, kNonNegative);
+}
+
+void readDielectric(Material& material, ParameterList& parameters, TextureTable& textures) {
+    material.kind = MaterialKind::dielectric;
+    readIndex(material, parameters, "eta");
     readRoughness(material, parameters, textures);
 }
 
-Material readMaterial(const std::string& kind, ParameterList& parameters, TextureTable& textures) {
-    Material material;
-    if (kind == "diffuse")
-        material.reflectance =
-            textures.spectrumTexture(parameters, "reflectance", SpectrumUse::albedo, glm::vec3(0.5f));
-    else if (kind == "coateddiffuse")
-        readCoatedDiffuse(material, parameters, textures);
-    else if (kind == "conductor")
-        readConductor(material, parameters, textures);
-    else
-        throw unsupported(parameters.position(), "material \"{}\" is not supported{}", printable(kind),
-                          didYouMean(kind, kKinds));
-    parameters.finish();
-    return material;
+void readThinDielectric(Material& material, ParameterList& parameters, TextureTable&) {
+    material.kind = MaterialKind::thinDielectric;
+    readIndex(material, parameters, "eta");
+}
+
+void readCoatedDiffuse(Material& material, ParameterList& parameters, TextureTable& textures) {
+    material.kind = MaterialKind::coatedDiffuse;
+    material.reflectance =
+        textures.spectrumTexture(parameters, "reflectance", SpectrumUse::albedo, glm::vec3(0.5f));
+    readRoughness(material, parameters, textures);
+    readIndex(material, parameters, "eta");
+    readGap(material, parameters, textures);
+}
+
+/// A metal by its reflectance, or by its index.
+void readMetal(Material& material, ParameterList& parameters, TextureTable& textures,
+               const std::string& prefix) {
+    material.reflectance =
+        textures.spectrumTexture(parameters, "reflectance", SpectrumUse::albedo, std::nullopt);
+    if (material.reflectance >= 0) {
+        for (const std::string& name : {prefix + "eta", prefix + "k"})
+            if (parameters.find(name, kColourTypes))
+                throw badInput(parameters.positionOf(name),
+                               "a conductor has either 'reflectance' or '{0}eta' and '{0}k'", prefix);
+    } else if (const std::optional<Metal> metal = sampledMetal(parameters.find(prefix + "eta", kColourTypes),
+                                                               parameters.find(prefix + "k", kColourTypes))) {
+        material.eta = textures.constant(metal->eta);
+        material.k = textures.constant(metal->k);
+    } else {
+        material.eta = textures.spectrumTexture(parameters, prefix + "eta", SpectrumUse::unbounded,
+                                                metalSpectrum("metal-Cu-eta"));
+        material.k = textures.spectrumTexture(parameters, prefix + "k", SpectrumUse::unbounded,
+                                              metalSpectrum("metal-Cu-k"));
+    }
+}
+
+void readConductor(Material& material, ParameterList& parameters, TextureTable& textures) {
+    material.kind = MaterialKind::conductor;
+    readMetal(material, parameters, textures, "");
+    readRoughness(material, parameters, textures);
+}
+
+void readCoatedConductor(Material& material, ParameterList& parameters, TextureTable& textures) {
+    material.kind = MaterialKind::coatedConductor;
+    readMetal(material, parameters, textures, "conductor.");
+    readIndex(material, parameters, "interface.eta");
+    readRoughness(material, parameters, textures, "interface.");
+    const auto [u, v] = roughness("conductor.", parameters, textures);
+    material.baseURoughness = u;
+    material.baseVRoughness = v;
+    readGap(material, parameters, textures);
+}
+
+void readInterface(Material& material, ParameterList&, TextureTable&) {
+    material.kind = MaterialKind::interface;
+}
+
+/// Kinds but mix, which needs the table.
+struct Kind {
+    std::string_view name;
+    void (*read)(Material&, ParameterList&, TextureTable&);
+};
+constexpr Kind kKinds[] = {
+    {"diffuse", readDiffuse},
+    {"coateddiffuse", readCoatedDiffuse},
+    {"conductor", readConductor},
+    {"coatedconductor", readCoatedConductor},
+    {"dielectric", readDielectric},
+    {"thindielectric", readThinDielectric},
+    {"diffusetransmission", readDiffuseTransmission},
+    {"interface", readInterface},
+};
+constexpr std::string_view kMix = "mix";
+
+/// The normals that a material has of its own; as in pbrt, a normal map counts before a displacement.
+void readBumps(Material& material, ParameterList& parameters, TextureTable& textures, SceneFiles& files) {
+    material.displacement = textures.floatTexture(parameters, "displacement", std::nullopt);
+    if (const std::optional<std::string> map = parameters.text("normalmap"); map && !map->empty())
+        material.normalMapImage =
+            files.image(*map, {ColourEncoding::Kind::linear}, false, parameters.positionOf("normalmap"));
 }
 
 } // namespace
@@ -110,8 +189,8 @@ void MaterialTable::define(const std::string& name, const std::string& kind, Par
     entries_[std::size_t(index)] = {name, where, kind, std::move(parameters)};
 }
 
-Material MaterialTable::built(Entry& entry, TextureTable& textures) const {
-    if (entry.parameters) return readMaterial(entry.kind, *entry.parameters, textures);
+Material MaterialTable::built(Entry& entry, TextureTable& textures, SceneFiles& files) {
+    if (entry.parameters) return read(entry, textures, files);
     std::vector<std::string_view> names;
     for (const auto& [name, index] : named_)
         if (entries_[std::size_t(index)].parameters) names.push_back(name);
@@ -119,14 +198,78 @@ Material MaterialTable::built(Entry& entry, TextureTable& textures) const {
                    didYouMean(entry.name, names));
 }
 
-void MaterialTable::build(Scene& scene, TextureTable& textures) {
-    for (Entry& entry : entries_) {
+void MaterialTable::readMix(Material& material, ParameterList& parameters, TextureTable& textures) {
+    material.kind = MaterialKind::mix;
+    const Position where = parameters.positionOf("materials");
+    const Parameter* names = parameters.find("materials", {"string"});
+    if (!names || names->strings.size() != material.mixed.size())
+        throw badInput(where, "{} needs two names: \"string materials\"", parameters.subject());
+    for (std::size_t i = 0; i < material.mixed.size(); ++i)
+        material.mixed[i] = indexOf(names->strings[i], where);
+    material.amount = textures.floatTexture(parameters, "amount", 0.5f);
+}
+
+Material MaterialTable::read(Entry& entry, TextureTable& textures, SceneFiles& files) {
+    Material material;
+    ParameterList& parameters = *entry.parameters;
+    const auto* kind = std::ranges::find(kKinds, std::string_view(entry.kind), &Kind::name);
+    if (entry.kind == kMix) {
+        readMix(material, parameters, textures);
+    } else if (kind != std::end(kKinds)) {
+        kind->read(material, parameters, textures);
+        if (material.kind != MaterialKind::interface) readBumps(material, parameters, textures, files);
+    } else {
+        std::vector<std::string_view> names{kMix};
+        for (const Kind& each : kKinds) names.push_back(each.name);
+        throw unsupported(parameters.position(), "material \"{}\" is not supported{}", printable(entry.kind),
+                          didYouMean(entry.kind, names));
+    }
+    parameters.finish();
+    return material;
+}
+
+void MaterialTable::build(Scene& scene, TextureTable& textures, SceneFiles& files) {
+    // A mix may name materials that are not made: they join the entries at their end.
+    for (std::size_t i = 0; i < entries_.size(); ++i) {
+        Entry& entry = entries_[i];
         Material material;
-        const auto work = [&] { material = built(entry, textures); };
+        const auto work = [&] { material = built(entry, textures, files); };
         if (!issues_.attempt("grey stands in, diffuse with a reflectance of 0.5", work))
             material = {.reflectance = textures.constant(glm::vec3(0.5f))};
         scene.materials.push_back(material);
     }
+    checkMixes(scene);
+}
+
+void MaterialTable::checkMixes(const Scene& scene) const {
+    // Materials that are known to end: every round adds the mixes of such.
+    const auto count = scene.materials.size();
+    std::vector<bool> ends(count);
+    for (int round = 0; round < kMaxMixDepth; ++round)
+        for (std::size_t i = 0; i < count; ++i) {
+            const Material& m = scene.materials[i];
+            const auto endsFor = [&](int part) { return bool(ends[std::size_t(part)]); };
+            ends[i] = m.kind != MaterialKind::mix || std::ranges::all_of(m.mixed, endsFor);
+        }
+    for (std::size_t i = 0; i < count; ++i) {
+        const Material& m = scene.materials[i];
+        const Position& where = entries_[i].where;
+        if (!ends[i])
+            throw badInput(where, "this material is a mix of itself, or nested more than {} deep",
+                           kMaxMixDepth);
+        if (m.kind != MaterialKind::mix) continue;
+        for (const int part : m.mixed)
+            if (scene.materials[std::size_t(part)].kind == MaterialKind::interface)
+                throw badInput(where, "an \"interface\" cannot be part of a mix");
+    }
+}
+
+void dropInterfaces(Scene& scene) {
+    const auto isInterface = [&](const Shape& shape) {
+        return scene.materials[std::size_t(shape.materialIndex)].kind == MaterialKind::interface;
+    };
+    std::erase_if(scene.shapes, isInterface);
+    for (ObjectDefinition& object : scene.objects) std::erase_if(object.shapes, isInterface);
 }
 
 } // namespace slant

@@ -3,13 +3,14 @@
 #include "scene/parameters.h"
 #include "scene/scene.h"
 
+#include <deque>
 #include <map>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace slant {
 
+class SceneFiles;
 class TextureTable;
 
 /// Hands out the indices of Scene::materials at once and builds them at the end, since pbrt lets a material
@@ -28,7 +29,7 @@ public:
     int use(const std::string& name, const Position& where);
 
     /// Fills `scene.materials`; names that were used but never made are issues. Grey stands in.
-    void build(Scene& scene, TextureTable& textures);
+    void build(Scene& scene, TextureTable& textures, SceneFiles& files);
 
 private:
     struct Entry {
@@ -39,11 +40,17 @@ private:
     };
 
     int indexOf(const std::string& name, const Position& where);
-    Material built(Entry& entry, TextureTable& textures) const;
+    Material read(Entry& entry, TextureTable& textures, SceneFiles& files);
+    void readMix(Material& material, ParameterList& parameters, TextureTable& textures);
+    Material built(Entry& entry, TextureTable& textures, SceneFiles& files);
+    void checkMixes(const Scene& scene) const;
 
     Issues& issues_;
-    std::vector<Entry> entries_;
+    std::deque<Entry> entries_;
     std::map<std::string, int> named_;
 };
+
+/// Takes out the shapes that are "interface": light passes them, and without media they do nothing.
+void dropInterfaces(Scene& scene);
 
 } // namespace slant

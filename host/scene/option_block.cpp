@@ -23,7 +23,7 @@ constexpr float kMaxFilterRadiusPx = 128;
 constexpr std::string_view kFilters[] = {"box", "triangle", "gaussian", "mitchell", "sinc"};
 constexpr std::string_view kSamplers[] = {"halton",     "independent", "paddedsobol", "sobol",
                                           "stratified", "zsobol",      "pmj02bn"};
-constexpr std::string_view kCameras[] = {"perspective", "realistic"};
+constexpr std::string_view kCameras[] = {"perspective", "realistic", "orthographic", "spherical"};
 /// pbrt's, of all versions; what is not of path tracing becomes it.
 constexpr std::string_view kIntegrators[] = {"path",
                                              "volpath",
@@ -188,10 +188,20 @@ ApertureShape readShape(ParameterList& parameters, const SceneFiles& files) {
 }
 
 void readPerspective(PerspectiveCamera& camera, ParameterList& parameters, const SceneFiles& files) {
-    camera.fovDegrees = parameters.number("fov", 90, {0, 179.99, true});
+    if (camera.projection == Projection::perspective)
+        camera.fovDegrees = parameters.number("fov", 90, {0, 179.99, true});
     camera.lensRadius = parameters.number("lensradius", 0, kNonNegative);
     camera.focalDistance = parameters.number("focaldistance", 1e6f, kPositive);
     camera.aperture = readShape(parameters, files);
+}
+
+void readSpherical(PerspectiveCamera& camera, ParameterList& parameters) {
+    camera.projection =
+        parameters.choice("mapping", "equalarea", {"equalarea", "equirectangular"}) == "equalarea"
+            ? Projection::equalArea
+            : Projection::equirectangular;
+    // As in pbrt.
+    parameters.ignore({"lensradius", "focaldistance", "frameaspectratio", "screenwindow"});
 }
 
 RealisticCamera readRealistic(ParameterList& parameters, const SceneFiles& files, const std::string& path,
@@ -294,7 +304,10 @@ void OptionBlock::resolveCamera(Scene& scene, Entity& camera, const SceneFiles& 
             scene.film.diagonalMm = camera.parameters.number("filmdiag", scene.film.diagonalMm, kPositive);
             placeByFront(*scene.realistic, scene.camera.worldFromCamera);
         }
+    } else if (camera.kind == "spherical") {
+        readSpherical(scene.camera, camera.parameters);
     } else {
+        if (camera.kind == "orthographic") scene.camera.projection = Projection::parallel;
         readPerspective(scene.camera, camera.parameters, files);
         readScreen(scene.camera, camera.parameters, scene.film);
     }

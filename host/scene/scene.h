@@ -51,8 +51,12 @@ struct Film {
     float diagonalMm = 35;       ///< for realistic cameras
 };
 
-/// Camera "perspective".
+/// Cameras "perspective", "orthographic" (parallel), and "spherical" with either mapping.
+enum class Projection { perspective, parallel, equalArea, equirectangular };
+
+/// All cameras but "realistic".
 struct PerspectiveCamera {
+    Projection projection = Projection::perspective;
     MovingTransform worldFromCamera;
     float fovDegrees = 90;      ///< of the shorter axis
     float lensRadius = 0;       ///< world units; 0 = pinhole
@@ -135,20 +139,37 @@ struct Texture {
     glm::vec3 direction{0, 1, 0};             ///< directionMix: unit, in the world
 };
 
-enum class MaterialKind { diffuse, coatedDiffuse, conductor };
+enum class MaterialKind {
+    diffuse,
+    coatedDiffuse,
+    conductor,
+    coatedConductor,
+    dielectric,
+    thinDielectric,
+    diffuseTransmission,
+    mix,
+    interface ///< nothing at all; shapes of it are left out
+};
 
 /// Parameters are texture indices (constants are textures too), -1 for those that a kind does not have.
 struct Material {
     MaterialKind kind = MaterialKind::diffuse;
-    int reflectance = -1;                 ///< diffuse, coatedDiffuse; conductor: instead of eta, k
-    int uRoughness = -1, vRoughness = -1; ///< coatedDiffuse, conductor (float textures)
-    bool remapRoughness = true;           ///< alpha = sqrt(roughness)
-    int eta = -1, k = -1;                 ///< conductor: RGB index and absorption
-    float interfaceEta = 1.5f;            ///< coatedDiffuse
-    int thickness = -1;                   ///< coatedDiffuse (float texture)
-    float g = 0;                          ///< coatedDiffuse: medium asymmetry
-    int albedo = -1;                      ///< coatedDiffuse: medium albedo
-    int maxDepth = 10, sampleCount = 1;   ///< coatedDiffuse: pbrt's random-walk limits
+    int reflectance = -1;                         ///< diffuse ones; conductor: instead of eta, k
+    int transmittance = -1;                       ///< diffuseTransmission
+    float scale = 1;                              ///< diffuseTransmission: of both
+    int uRoughness = -1, vRoughness = -1;         ///< conductor, and of interfaces (float textures)
+    int baseURoughness = -1, baseVRoughness = -1; ///< coatedConductor: of the metal
+    bool remapRoughness = true;                   ///< alpha = sqrt(roughness)
+    int eta = -1, k = -1;                         ///< metals: RGB index and absorption
+    float interfaceEta = 1.5f;                    ///< of coats and dielectrics
+    int thickness = -1;                           ///< of coats (float texture)
+    float g = 0;                                  ///< of coats: medium asymmetry
+    int albedo = -1;                              ///< of coats: medium albedo
+    int maxDepth = 10, sampleCount = 1;           ///< of coats: pbrt's random-walk limits
+    std::array<int, 2> mixed{-1, -1};             ///< mix: indices of materials; never in a circle
+    int amount = -1;                              ///< mix: chance of the second one (float texture)
+    int normalMapImage = -1;                      ///< all but mix: RGB, from 0 to 1; else
+    int displacement = -1;                        ///< bumps (float texture), in units of the world
 };
 
 // ---------------------------------------------------------------- shapes
@@ -162,20 +183,21 @@ struct Mesh {
     std::vector<std::uint32_t> indices; ///< 3 per triangle; 4 per bilinear patch (p00, p10, p01, p11)
 };
 
-enum class ShapeKind { mesh, sphere, disk };
+enum class ShapeKind { mesh, sphere, disk, cylinder };
 
 /// One shape as the file has it. Meshes may be shared between shapes.
 struct Shape {
     ShapeKind kind = ShapeKind::mesh;
     int meshIndex = -1;
-    float radius = 1;                  ///< sphere, disk
-    float zMin = -1, zMax = 1;         ///< sphere
+    float radius = 1;                  ///< quadrics
+    float zMin = -1, zMax = 1;         ///< sphere, cylinder
     float height = 0, innerRadius = 0; ///< disk
-    float phiMaxDegrees = 360;         ///< sphere, disk
+    float phiMaxDegrees = 360;         ///< quadrics
     MovingTransform worldFromObject;   ///< inside an object definition: instance space from object space
     bool reverseOrientation = false;
     int materialIndex = -1; ///< never -1 after parsing
     int areaLightIndex = -1;
+    int alpha = -1;        ///< share of rays that it stops (float texture); -1: all
     FileLocation location; ///< for late errors
 };
 
@@ -200,20 +222,24 @@ struct AreaLight {
     float scale = 1;
     bool twoSided = false;
     std::optional<float> power;
+    int imageIndex = -1; ///< RGB, over the shape's u and v, in place of `radiance`; -1: none
 };
 
-enum class LightKind { point, distant, infinite };
+enum class LightKind { point, spot, goniometric, projection, distant, infinite };
 
 struct Light {
     LightKind kind = LightKind::point;
-    glm::vec3 emission{1}; ///< point: intensity I; distant, infinite: radiance L
+    glm::vec3 emission{1}; ///< those with a place: intensity I; distant, infinite: radiance L
     float scale = 1;
-    std::optional<float> power;       ///< point: W
+    std::optional<float> power;       ///< those with a place: W
     std::optional<float> illuminance; ///< distant, infinite: lux on a surface facing it
     glm::dmat4 worldFromLight{1.0};
     glm::vec3 from{0, 0, 0},
-        to{0, 0, 1};     ///< light space; point uses from, distant shines from `from` to `to`
-    int imageIndex = -1; ///< infinite: equal-area octahedral square image, or -1 for a constant
+        to{0, 0, 1}; ///< light space; point uses from, distant and spot shine from `from` to `to`
+    float coneDegrees = 30, coneDeltaDegrees = 5; ///< spot: half its angle, and the part of it that fades
+    float fovDegrees = 90;                        ///< projection: of the shorter axis
+    int imageIndex = -1; ///< infinite, goniometric: equal-area octahedral square image; -1: constant
+    std::optional<std::array<glm::vec3, 4>> portal; ///< infinite: corners of its opening, world space
     FileLocation location;
 };
 

@@ -1,21 +1,28 @@
 #include "scene/shape_reader.h"
 
 #include "base/suggest.h"
+#include "scene/loop_subdivision.h"
 #include "scene/scene_files.h"
 #include "scene/spelling.h"
+#include "scene/texture_table.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace slant {
 namespace {
 
-constexpr std::string_view kKinds[] = {"trianglemesh", "bilinearmesh", "plymesh", "sphere", "disk"};
+constexpr std::string_view kKinds[] = {"trianglemesh", "bilinearmesh", "plymesh", "loopsubdiv",
+                                       "sphere",       "disk",         "cylinder"};
 
-/// Alpha textures would cut holes; an alpha of 1 does nothing.
-void refuseAlpha(ParameterList& parameters) {
+/// Triangles that a loopsubdiv may come to.
+constexpr double kMaxSubdivided = 1 << 26;
+
+/// A texture, or -1 where all rays are stopped.
+int readAlpha(ParameterList& parameters, TextureTable& textures) {
     const Parameter* alpha = parameters.find("alpha", {"float", "texture"});
-    if (alpha && (alpha->type == "texture" || alpha->numbers[0] != 1))
-        parameters.report(unsupported(alpha->position, "'alpha' is not supported"));
+    if (!alpha || (alpha->type == "float" && alpha->numbers[0] >= 1)) return -1;
+    return textures.floatTexture(parameters, "alpha", std::nullopt);
 }
 
 void checkSize(ParameterList& parameters, std::string_view name, std::size_t count, std::size_t vertices) {
@@ -71,6 +78,32 @@ std::vector<Shape> readPlyShapes(ParameterList& parameters, SceneFiles& files) {
     return shapes;
 }
 
+int readSubdivision(ParameterList& parameters, Scene& scene) {
+    const int mesh = readMesh(Mesh::Kind::triangles, parameters, scene);
+    Mesh& control = scene.meshes[std::size_t(mesh)];
+    const int levels = parameters.integer("levels", 3, 0, 30);
+    parameters.choice("scheme", "loop", {"loop"});
+    if (std::ldexp(double(control.indices.size() / 3), 2 * levels) > kMaxSubdivided)
+        throw badInput(parameters.positionOf("levels"), "{} triangles cut {} times are too many",
+                       control.indices.size() / 3, levels);
+    control = loopSubdivided(control, levels, parameters.position());
+    return mesh;
+}
+
+Shape readCylinder(ParameterList& parameters) {
+    Shape shape;
+    shape.kind = ShapeKind::cylinder;
+    shape.radius = parameters.number("radius", 1, kPositive);
+    const float low = parameters.number("zmin", -1), high = parameters.number("zmax", 1);
+    shape.zMin = std::min(low, high);
+    shape.zMax = std::max(low, high);
+    shape.phiMaxDegrees = std::clamp(parameters.number("phimax", 360), 0.f, 360.f);
+    if (shape.zMin == shape.zMax || shape.phiMaxDegrees == 0)
+        throw badInput(parameters.position(),
+                       "nothing is left of this cylinder between zmin and zmax, 0 and phimax");
+    return shape;
+}
+
 Shape readSphere(ParameterList& parameters) {
     Shape shape;
     shape.kind = ShapeKind::sphere;
@@ -101,8 +134,8 @@ Shape readDisk(ParameterList& parameters) {
 } // namespace
 
 std::vector<Shape> readShapes(const std::string& kind, ParameterList& parameters, Scene& scene,
-                              SceneFiles& files) {
-    refuseAlpha(parameters);
+                              SceneFiles& files, TextureTable& textures) {
+    const int alpha = readAlpha(parameters, textures);
     std::vector<Shape> shapes;
     if (kind == "trianglemesh" || kind == "bilinearmesh") {
         shapes.emplace_back();
@@ -110,6 +143,11 @@ std::vector<Shape> readShapes(const std::string& kind, ParameterList& parameters
             kind == "trianglemesh" ? Mesh::Kind::triangles : Mesh::Kind::bilinearPatches, parameters, scene);
     } else if (kind == "plymesh") {
         shapes = readPlyShapes(parameters, files);
+    } else if (kind == "loopsubdiv") {
+        shapes.emplace_back();
+        shapes.back().meshIndex = readSubdivision(parameters, scene);
+    } else if (kind == "cylinder") {
+        shapes = {readCylinder(parameters)};
     } else if (kind == "sphere") {
         shapes = {readSphere(parameters)};
     } else if (kind == "disk") {
@@ -119,7 +157,10 @@ std::vector<Shape> readShapes(const std::string& kind, ParameterList& parameters
                           didYouMean(kind, kKinds));
     }
     parameters.finish();
-    for (Shape& shape : shapes) shape.location = parameters.position();
+    for (Shape& shape : shapes) {
+        shape.location = parameters.position();
+        shape.alpha = alpha;
+    }
     return shapes;
 }
 

@@ -9,11 +9,12 @@
 namespace slant {
 
 class SceneFiles;
+class TextureTable;
 
 /// The shapes of one Shape directive (a PLY file with triangles and quads makes two), with geometry alone:
 /// transform, orientation, material and light are the caller's. Meshes go to `scene.meshes`. Throws
 /// Error(badInput), also for parameters that the kind does not have.
 std::vector<Shape> readShapes(const std::string& kind, ParameterList& parameters, Scene& scene,
-                              SceneFiles& files);
+                              SceneFiles& files, TextureTable& textures);
 
 } // namespace slant

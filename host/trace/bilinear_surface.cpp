@@ -147,11 +147,17 @@ void BilinearSurface::describe(std::uint32_t primitive, const SurfaceLocation& a
         hit.uv = apply(interpolate, mesh_.uvs, glm::dvec2());
         // pbrt's derivative with respect to the mesh's first texture coordinate: a reciprocal of each
         // partial.
-        double dsdu = apply(alongU, mesh_.uvs, glm::dvec2()).x,
-               dsdv = apply(alongV, mesh_.uvs, glm::dvec2()).x;
-        glm::dvec3 dpds(0);
-        if (std::abs(dsdu) >= 1e-8) dpds += dpdu / dsdu;
-        if (std::abs(dsdv) >= 1e-8) dpds += dpdv / dsdv;
+        const glm::dvec2 alongFirst = apply(alongU, mesh_.uvs, glm::dvec2()),
+                         alongSecond = apply(alongV, mesh_.uvs, glm::dvec2());
+        const auto derivative = [&](int axis) {
+            glm::dvec3 sum(0);
+            if (std::abs(alongFirst[axis]) >= 1e-8) sum += dpdu / alongFirst[axis];
+            if (std::abs(alongSecond[axis]) >= 1e-8) sum += dpdv / alongSecond[axis];
+            return sum;
+        };
+        const glm::dvec3 dpds = derivative(0), dpdt = derivative(1);
+        if (const glm::dvec3 cross = glm::cross(dpds, dpdt); glm::dot(cross, cross) > 0)
+            dpdv = glm::dot(cross, glm::cross(dpdu, dpdv)) < 0 ? -dpdt : dpdt;
         if (glm::dot(dpds, dpds) > 0) dpdu = dpds;
     }
     if (!(glm::dot(dpdu, dpdu) > 0)) dpdu = anyTangent(normal);
@@ -162,11 +168,13 @@ void BilinearSurface::describe(std::uint32_t primitive, const SurfaceLocation& a
         double size = glm::length(sum);
         if (size > 0) shading = sum / size;
         dpdu = turned(dpdu, normal, shading);
+        dpdv = turned(dpdv, normal, shading);
         if (glm::dot(normal, shading) < 0) normal = -normal;
     }
     hit.geometricNormal = normal;
     hit.shadingNormal = shading;
     hit.dpdu = dpdu;
+    hit.dpdv = dpdv;
 }
 
 } // namespace slant

@@ -1,5 +1,7 @@
 #include "trace/block_tracer.h"
 
+#include "trace/specular_chain.h"
+
 #include <cmath>
 
 namespace slant {
@@ -29,6 +31,15 @@ float exposureOf(const Film& film, glm::vec3 radiance) {
 glm::vec3 quotient(glm::vec3 a, glm::vec3 b) {
     const auto divide = [](float x, float y) { return y > 0 ? x / y : 0.f; };
     return {divide(a.x, b.x), divide(a.y, b.y), divide(a.z, b.z)};
+}
+
+/// Images in what keeps still are taken to keep still; in what moves, to move with it.
+SurfaceHit seenAt(float depth, const SurfaceHit& hit, const Ray& ray) {
+    if (depth == hit.t || hit.mover >= 0) return hit;
+    SurfaceHit image;
+    image.materialIndex = hit.materialIndex;
+    image.position = ray.origin + depth * ray.direction;
+    return image;
 }
 
 } // namespace
@@ -113,12 +124,26 @@ void BlockTracer::finish(int i) {
     }
 }
 
+/// At which the sample's points are seen.
+float BlockTracer::depthOf(int i) const {
+    const std::size_t lane = std::size_t(i);
+    const SurfaceHit& hit = hits_[lane];
+    if (!job_.findsImages || !hit.hit() || !job_.shading.materials.mayBeSpecular(hit)) return hit.t;
+    return job_.camera.visit([&](const auto& camera) {
+        const glm::dmat4 axes = camera.worldFromCamera().at(double(rays_[lane].time));
+        const double radius = -double(camera.slopeModel().c1) / camera.pinholeFromCamera()[0].x;
+        const LensAxes lens{glm::dvec3(axes[0]), -glm::dvec3(axes[1]), radius};
+        return imageDepth(job_.geometry, job_.shading.materials, rays_[lane], hit, lens);
+    });
+}
+
 void BlockTracer::store(int i, int sample) {
     std::size_t lane = std::size_t(i);
     const SurfaceHit& hit = hits_[lane];
+    const float depth = depthOf(i);
     LightFieldSample s = samples_[lane];
-    s.w = hit.t;
-    s.slope = job_.camera.slopeModel()(hit.t);
+    s.w = depth;
+    s.slope = job_.camera.slopeModel()(depth);
     s.alpha = hit.hit() ? 1.f : 0.f;
     std::size_t pixel = std::size_t(y(i) - job_.pixels.y0) * std::size_t(job_.pixels.width()) +
                         std::size_t(x(i) - job_.pixels.x0);
@@ -140,8 +165,12 @@ void BlockTracer::store(int i, int sample) {
     }
     if (!job_.out.motion.empty()) {
         // The dark around a picture keeps still.
-        const FittedMotion fitted = weights_[lane] > 0 ? job_.motion.of(hit, rays_[lane]) : FittedMotion();
-        job_.out.motion[index] = fitted.motion;
+        const FittedMotion fitted = weights_[lane] > 0
+                                        ? job_.motion.of(seenAt(depth, hit, rays_[lane]), rays_[lane])
+                                        : FittedMotion();
+        // Where depths don't matter, those of the motion are 1, and those of samples are not.
+        job_.out.motion[index] =
+            job_.camera.isParallel() && std::isfinite(depth) ? depth * fitted.motion : fitted.motion;
         misses_.add(fitted.missPx);
     }
 }

@@ -26,7 +26,8 @@ struct TraceJob {
     int firstSample, count;
     SampleSpans out;
     const SampleMotion& motion;
-    float farAway; ///< where lights without a place are said to be
+    bool findsImages; ///< of mirrors and glass
+    float farAway;    ///< where lights without a place are said to be
 };
 
 class BlockTracer {
@@ -48,6 +49,7 @@ private:
     void shade(int sample);
     void traceShadows(std::span<const Ray> rays, std::span<std::uint8_t> occluded);
     void finish(int lane);
+    float depthOf(int lane) const;
     void store(int lane, int sample);
     void storeShadow(int lane, std::size_t index, float exposure);
 

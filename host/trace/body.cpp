@@ -109,7 +109,7 @@ Shape unplaced(const Shape& shape) {
 
 void Body::add(const Shape& shape, const std::vector<Mesh>& meshes, int emitter, RTCDevice device) {
     MadeSurface made = makeSurface(shape, meshes, device);
-    entries.push_back({std::move(made.surface), shape.materialIndex, emitter});
+    entries.push_back({std::move(made.surface), shape.materialIndex, emitter, shape.alpha});
     embree::attach(device, scene.get(), made.geometry.get(), entries.size() - 1);
 }
 

@@ -16,6 +16,7 @@ struct Entry {
     std::unique_ptr<Surface> surface;
     int materialIndex;
     int emitter; ///< index among the emitters (EmitterId); -1: none
+    int alpha;   ///< Shape::alpha
 };
 
 struct Body {

@@ -71,7 +71,9 @@ float Bsdf::alphaAlong(glm::vec3 w) const {
 glm::vec3 Bsdf::fresnel(float cosine) const {
     if (kind_ == Kind::mirror || kind_ == Kind::conductor) return fresnelConductor(cosine, eta_, k_);
     float unused;
-    return glm::vec3(fresnelDielectric(cosine, coat_->eta(), unused));
+    if (kind_ == Kind::coatedMirror || kind_ == Kind::coatedMetal)
+        return glm::vec3(fresnelDielectric(cosine, layers_->eta, unused));
+    return glm::vec3(fresnelDielectric(cosine, hasCoat() ? coat_->eta() : eta_.x, unused));
 }
 
 glm::vec3 Bsdf::facetValue(glm::vec3 wi) const {
@@ -91,11 +93,12 @@ glm::vec3 Bsdf::baseValue(glm::vec3 localWi) const {
 
 glm::vec3 Bsdf::evaluate(glm::vec3 wi) const {
     float cosine = glm::dot(normal_, wi);
+    if (transmits())
+        return kind_ == Kind::roughGlass
+                   ? glassValue(frame_.toLocal(wi))
+                   : (cosine > 0 ? colour_ : transmitted_) * (kInvPi * std::abs(cosine));
     if (!(cosine > 0)) return glm::vec3(0);
     switch (kind_) {
-    case Kind::black:
-    case Kind::mirror:
-        return glm::vec3(0);
     case Kind::diffuse:
         return colour_ * (kInvPi * cosine);
     case Kind::smoothCoat:
@@ -106,12 +109,16 @@ glm::vec3 Bsdf::evaluate(glm::vec3 wi) const {
         if (!(local.z > 0)) return glm::vec3(0);
         return kind_ == Kind::conductor ? facetValue(local) : facetValue(local) + baseValue(local);
     }
+    case Kind::coatedMetal:
+        return metalValue(frame_.toLocal(wi));
+    default:
+        return glm::vec3(0);
     }
-    return glm::vec3(0);
 }
 
 glm::vec3 Bsdf::evaluateDiffuse(glm::vec3 wi) const {
-    if (kind_ == Kind::conductor) return glm::vec3(0);
+    if (kind_ == Kind::conductor || kind_ == Kind::coatedMetal || kind_ == Kind::roughGlass)
+        return glm::vec3(0);
     if (kind_ != Kind::roughCoat) return evaluate(wi);
     glm::vec3 local = frame_.toLocal(wi);
     return local.z > 0 ? baseValue(local) : glm::vec3(0);
@@ -119,11 +126,11 @@ glm::vec3 Bsdf::evaluateDiffuse(glm::vec3 wi) const {
 
 float Bsdf::pdf(glm::vec3 wi) const {
     float cosine = glm::dot(normal_, wi);
+    if (kind_ == Kind::roughGlass) return glassPdf(frame_.toLocal(wi));
+    if (kind_ == Kind::translucent)
+        return (cosine > 0 ? nearChance_ : 1 - nearChance_) * (kInvPi * std::abs(cosine));
     if (!(cosine > 0)) return 0;
     switch (kind_) {
-    case Kind::black:
-    case Kind::mirror:
-        return 0;
     case Kind::diffuse:
         return kInvPi * cosine;
     case Kind::smoothCoat:
@@ -132,17 +139,24 @@ float Bsdf::pdf(glm::vec3 wi) const {
         return facetPdf(frame_.toLocal(wi));
     case Kind::roughCoat:
         return facetChance_ * facetPdf(frame_.toLocal(wi)) + (1 - facetChance_) * kInvPi * cosine;
+    case Kind::coatedMetal:
+        return metalPdf(frame_.toLocal(wi));
+    default:
+        return 0;
     }
-    return 0;
 }
 
 bool Bsdf::sample(float lobe, glm::vec2 u, BsdfSample& result) const {
     result.specular = false;
+    result.eta = 1;
     switch (kind_) {
     case Kind::black:
         return false;
     case Kind::mirror:
+    case Kind::coatedMirror:
         return sampleMirror(result);
+    case Kind::coatedMetal:
+        return sampleCoatedMetal(lobe, u, result);
     case Kind::diffuse:
         return sampleBase(u, result);
     case Kind::smoothCoat:
@@ -151,6 +165,12 @@ bool Bsdf::sample(float lobe, glm::vec2 u, BsdfSample& result) const {
         return sampleFacets(u, result);
     case Kind::roughCoat:
         return lobe < facetChance_ ? sampleFacets(u, result) : sampleBase(u, result);
+    case Kind::glass:
+        return sampleGlass(lobe, result);
+    case Kind::roughGlass:
+        return sampleRoughGlass(lobe, u, result);
+    case Kind::translucent:
+        return sampleTranslucent(lobe, u, result);
     }
     return false;
 }
@@ -159,7 +179,9 @@ bool Bsdf::sampleMirror(BsdfSample& result) const {
     result.direction = glm::normalize(2 * cosineOut_ * normal_ - wo_);
     result.specular = true;
     result.pdf = 0;
-    result.weight = fresnel(cosineOut_) / (kind_ == Kind::smoothCoat ? facetChance_ : 1.f);
+    result.weight = kind_ == Kind::coatedMirror
+                        ? colour_
+                        : fresnel(cosineOut_) / (kind_ == Kind::smoothCoat ? facetChance_ : 1.f);
     return true;
 }
 
@@ -205,13 +227,22 @@ glm::vec3 Bsdf::albedo() const {
     case Kind::smoothCoat:
     case Kind::roughCoat:
         return glm::min(fresnel(cosineOut_) + reflectance(), 1.f);
+    case Kind::coatedMirror:
+    case Kind::coatedMetal:
+        return glm::min(colour_, 1.f);
+    case Kind::glass:
+    case Kind::roughGlass:
+        return glm::vec3(1);
+    case Kind::translucent:
+        return glm::min(reflectance(), 1.f);
     }
     return glm::vec3(0);
 }
 
 glm::vec3 Bsdf::reflectance() const {
     if (kind_ == Kind::diffuse) return colour_;
-    return hasTwoLobes() ? colour_ * (kPi * coat_->meanTransmittance()) : glm::vec3(0);
+    if (kind_ == Kind::translucent) return colour_ + transmitted_;
+    return hasCoat() ? colour_ * (kPi * coat_->meanTransmittance()) : glm::vec3(0);
 }
 
 } // namespace slant

@@ -75,6 +75,7 @@ bool samplePoint(const Emitter& e, const Receiver& receiver, LightSample& sample
     sample.distance = std::sqrt(distance2);
     sample.direction = d / sample.distance;
     sample.radiance = e.radiance / distance2;
+    if (e.profile) sample.radiance *= e.profile->intensity(-sample.direction);
     sample.pdf = 1;
     sample.delta = sample.bounded = true;
     return true;
@@ -163,22 +164,25 @@ glm::vec3 worldNormal(const EmitterQuadric& q, glm::vec3 objectNormal) {
 }
 
 glm::vec3 objectNormalAt(const EmitterQuadric& q, glm::vec3 objectPoint) {
-    return q.disc ? glm::vec3(0, 0, 1) : objectPoint / q.radius;
+    if (q.kind == ShapeKind::disk) return {0, 0, 1};
+    return glm::vec3(objectPoint.x, objectPoint.y, q.kind == ShapeKind::sphere ? objectPoint.z : 0) /
+           q.radius;
 }
 
 float objectArea(const EmitterQuadric& q) {
-    return q.disc ? q.phiMax / 2 * (q.radius * q.radius - q.innerRadius * q.innerRadius)
-                  : q.phiMax * q.radius * (q.zMax - q.zMin);
+    return q.kind == ShapeKind::disk ? q.phiMax / 2 * (q.radius * q.radius - q.innerRadius * q.innerRadius)
+                                     : q.phiMax * q.radius * (q.zMax - q.zMin);
 }
 
 /// Uniform over the area in object space.
 glm::vec3 objectPoint(const EmitterQuadric& q, glm::vec2 u) {
     float phi = q.phiMax * u.y;
-    if (q.disc) {
+    if (q.kind == ShapeKind::disk) {
         float r = std::sqrt(glm::mix(q.innerRadius * q.innerRadius, q.radius * q.radius, u.x));
         return {r * std::cos(phi), r * std::sin(phi), q.height};
     }
-    float z = glm::mix(q.zMin, q.zMax, u.x), r = std::sqrt(std::max(0.f, q.radius * q.radius - z * z));
+    float z = glm::mix(q.zMin, q.zMax, u.x), r = q.radius;
+    if (q.kind == ShapeKind::sphere) r = std::sqrt(std::max(0.f, r * r - z * z));
     return {r * std::cos(phi), r * std::sin(phi), z};
 }
 

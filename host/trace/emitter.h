@@ -1,6 +1,7 @@
 // One piece of a light with a place: a point, a triangle, a bilinear patch, a sphere or another quadric, and
 // how to sample it from a receiving point.
 #pragma once
+#include "trace/point_profile.h"
 #include "trace/warp.h"
 
 #include <span>
@@ -24,13 +25,13 @@ struct LightSample {
     bool bounded = false; ///< radiance / pdf is bounded: needs no second strategy on diffuse surfaces
 };
 
-/// A sphere or disc that is not sampled by its solid angle (discs, cut spheres, stretched ones).
+/// A quadric that is not sampled by its solid angle: all but whole spheres that are not stretched.
 struct EmitterQuadric {
     glm::mat4 worldFromObject{1}, objectFromWorld{1};
-    float radius = 1, innerRadius = 0, height = 0; ///< disc: z = height
-    float zMin = -1, zMax = 1;                     ///< sphere
+    ShapeKind kind = ShapeKind::sphere;
+    float radius = 1, innerRadius = 0, height = 0; ///< disk: z = height
+    float zMin = -1, zMax = 1;                     ///< sphere, cylinder
     float phiMax = 2 * kPi;
-    bool disc = false;
 };
 
 /// World space; `radiance` leaves on the side of the normal, or on both.
@@ -49,7 +50,10 @@ struct Emitter {
     float area = 0;
     float size2 = 0; ///< triangle: square of the longest edge
     int quadric = -1;
-    int motion = -1; ///< -1: it keeps still; else all of this is as at time 0
+    const PointProfile* profile =
+        nullptr;            ///< point: in place of the same intensity everywhere, times radiance
+    bool invisible = false; ///< rays do not meet it
+    int motion = -1;        ///< -1: it keeps still; else all of this is as at time 0
 
     /// A light that is not bounded is sampled by area: fine from far away, noisy from nearby.
     bool bounded() const { return shape != Shape::patch && shape != Shape::quadric; }

@@ -5,6 +5,14 @@
 namespace slant {
 namespace {
 
+float meanLuminance(const Image& image) {
+    double sum = 0;
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x)
+            sum += double(luminance({image.at(x, y, 0), image.at(x, y, 1), image.at(x, y, 2)}));
+    return float(sum / (double(image.width()) * double(image.height())));
+}
+
 class Builder {
 public:
     explicit Builder(const Scene& scene) : scene_(scene) {}
@@ -16,7 +24,8 @@ public:
         turned_ = shape.reverseOrientation != (glm::determinant(glm::dmat3(toWorld_)) < 0);
         bool patches = shape.kind == ShapeKind::mesh && mesh().kind == Mesh::Kind::bilinearPatches;
         if (shape.worldFromObject.moves()) result_.motions.emplace_back(shape.worldFromObject);
-        result_.shapes.push_back({int(result_.emitters.size()), patches});
+        image_ = light_->imageIndex < 0 ? nullptr : &scene_.images[std::size_t(light_->imageIndex)];
+        result_.shapes.push_back({int(result_.emitters.size()), image_, patches});
         if (shape.kind != ShapeKind::mesh)
             addQuadric();
         else if (patches)
@@ -46,8 +55,13 @@ private:
         e.shape = shape;
         e.twoSided = light_->twoSided;
         if (shape_->worldFromObject.moves()) e.motion = int(result_.motions.size()) - 1;
-        e.radiance = light_->radiance * light_->scale;
+        e.radiance = (image_ ? glm::vec3(1) : light_->radiance) * light_->scale;
         if (light_->power) e.radiance *= *light_->power / ((e.twoSided ? 2 : 1) * primitiveArea * kPi);
+        if (image_ && light_->power) e.radiance /= std::max(meanLuminance(*image_), 1e-30f);
+        // What depends on u and v is left to the rays that meet it.
+        const Texture* alpha = shape_->alpha < 0 ? nullptr : &scene_.textures[std::size_t(shape_->alpha)];
+        e.invisible = alpha && alpha->kind == TextureKind::constant && alpha->value.x <= 0;
+        e.sampled = !image_ && (!alpha || e.invisible);
         return e;
     }
     void pushTriangle(glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 emittingSide, float primitiveArea) {
@@ -100,7 +114,7 @@ private:
         e.twist = twist;
         e.area = area;
         e.side = sideOf(glm::cross(e.edge1 + 0.5f * twist, e.edge2 + 0.5f * twist), index, 4);
-        e.sampled = area > 0;
+        e.sampled = e.sampled && area > 0;
         result_.emitters.push_back(e);
         result_.emitters.push_back(e);
         result_.emitters.back().sampled = false; // stands for the same piece
@@ -111,20 +125,21 @@ private:
         q.objectFromWorld = glm::mat4(glm::inverse(toWorld_));
         q.radius = shape_->radius;
         q.phiMax = glm::radians(std::clamp(shape_->phiMaxDegrees, 0.f, 360.f));
-        q.disc = shape_->kind == ShapeKind::disk;
+        q.kind = shape_->kind;
         q.innerRadius = shape_->innerRadius;
         q.height = shape_->height;
-        q.zMin = std::clamp(std::min(shape_->zMin, shape_->zMax), -q.radius, q.radius);
-        q.zMax = std::clamp(std::max(shape_->zMin, shape_->zMax), -q.radius, q.radius);
+        const float limit = q.kind == ShapeKind::sphere ? q.radius : std::numeric_limits<float>::infinity();
+        q.zMin = std::clamp(std::min(shape_->zMin, shape_->zMax), -limit, limit);
+        q.zMax = std::clamp(std::max(shape_->zMin, shape_->zMax), -limit, limit);
         float area = quadricArea(q);
         bool whole = q.zMin == -q.radius && q.zMax == q.radius && shape_->phiMaxDegrees >= 360;
         Emitter e = piece(Emitter::Shape::quadric, area);
         e.area = area;
         e.side = turned_ ? -1.f : 1.f;
-        e.sampled = area > 0;
+        e.sampled = e.sampled && area > 0;
         e.origin = glm::vec3(toWorld_ * glm::dvec4(0, 0, 0, 1));
         e.radius = q.radius * float(std::cbrt(std::abs(glm::determinant(glm::dmat3(toWorld_)))));
-        if (!q.disc && whole && keepsSpheres())
+        if (q.kind == ShapeKind::sphere && whole && keepsSpheres())
             e.shape = Emitter::Shape::sphere;
         else {
             e.quadric = int(result_.quadrics.size());
@@ -148,6 +163,7 @@ private:
     const Scene& scene_;
     const Shape* shape_ = nullptr;
     const AreaLight* light_ = nullptr;
+    const Image* image_ = nullptr;
     glm::dmat4 toWorld_{1.0};
     bool turned_ = false;
     EmittingShapes result_;

@@ -11,6 +11,7 @@ namespace slant {
 /// Where the pieces of one shape with an area light lie among the emitters.
 struct EmittingShape {
     int first;
+    const Image* image; ///< of the radiance over its u and v, times that of its pieces; null: none
     bool patches; ///< two pieces per primitive: the halves beside p10-p01 of a flat patch, or the patch twice
 };
 

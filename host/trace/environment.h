@@ -4,8 +4,9 @@
 // exceeds the mean of the image, else a direction in proportion to the cosine to its normal. The estimate of
 // the irradiance stays bounded, for flat skies and for suns, without a second strategy.
 #pragma once
+#include "camera/octahedral.h"
 #include "scene/scene.h"
-#include "trace/octahedral.h"
+#include "trace/warp.h"
 
 namespace slant {
 

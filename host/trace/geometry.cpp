@@ -2,6 +2,8 @@
 
 #include "trace/body.h"
 #include "trace/instance.h"
+#include "trace/pattern.h"
+#include "trace/textures.h"
 
 #include <algorithm>
 #include <deque>
@@ -18,6 +20,7 @@ struct Geometry::Impl {
     };
     std::deque<Placed> instances; ///< geomID = world.still.entries.size() + index
     std::vector<const Placement*> movers;
+    std::unique_ptr<Textures> textures; ///< of alphas; null if there is none
 
     Impl(const Scene& scene, Monitor& monitor);
     void place(const Body& body, const Placement& placement);
@@ -54,6 +57,12 @@ Geometry::Impl::Impl(const Scene& scene, Monitor& monitor) : device(newDevice())
     for (const MovingBody& moving : world.moving) place(moving.body, Placement(moving.placement));
     for (const ObjectInstance& instance : scene.instances) place(instance);
     embree::commit(device.get(), world.still.scene.get(), monitor);
+    const auto isMasked = [](const Shape& shape) { return shape.alpha >= 0; };
+    if (std::ranges::any_of(scene.shapes, isMasked) ||
+        std::ranges::any_of(scene.objects, [&](const ObjectDefinition& object) {
+            return std::ranges::any_of(object.shapes, isMasked);
+        }))
+        textures = std::make_unique<Textures>(scene);
 }
 
 /// Every body of the object is placed on its own, so that Embree has no instances within instances.
@@ -84,6 +93,7 @@ void Geometry::Impl::resolve(const Ray& ray, unsigned instanceId, unsigned geome
         entry.surface->describe(primitive, location, hit);
         hit.t = float(location.t);
         hit.materialIndex = entry.materialIndex;
+        hit.alpha = entry.alpha;
         hit.emitter = {entry.emitter, entry.emitter < 0 ? 0 : int(primitive)};
     };
     hit.time = ray.time;
@@ -132,6 +142,33 @@ Geometry::Geometry(const Scene& scene, Monitor& monitor) : impl_(std::make_uniqu
 Geometry::~Geometry() = default;
 
 bool Geometry::intersect(const Ray& ray, SurfaceHit& hit) const {
+    if (!nearest(ray, hit)) return false;
+    if (hit.alpha >= 0) passMasked(ray, hit);
+    return hit.hit();
+}
+
+/// Takes `hit`, the nearest one, on to the first that stops the ray.
+void Geometry::passMasked(const Ray& ray, SurfaceHit& hit) const {
+    Ray rest = ray;
+    float passed = 0; // of the ray's parameter
+    const float length2 = glm::dot(ray.direction, ray.direction);
+    while (hit.hit() && hit.alpha >= 0) {
+        const float alpha =
+            impl_->textures
+                ->evaluate(hit.alpha, {hit.position, hit.uv, hit.geometricNormal}, TextureUse::number)
+                .x;
+        if (alpha >= 1) break;
+        const std::uint32_t hash = hashWords(hashVector(rest.origin), hashVector(rest.direction));
+        if (alpha > 0 && unitFloat(hash) <= alpha) break;
+        rest.origin = offsetRayOrigin(hit.position, hit.positionError, hit.geometricNormal, ray.direction);
+        passed = std::max(passed + hit.t, glm::dot(rest.origin - ray.origin, ray.direction) / length2);
+        rest.tMax = ray.tMax - passed;
+        if (!(rest.tMax > 0) || !nearest(rest, hit)) hit = SurfaceHit();
+    }
+    hit.t += passed;
+}
+
+bool Geometry::nearest(const Ray& ray, SurfaceHit& hit) const {
     RTCRayHit query;
     query.ray = singleRay(ray);
     query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
@@ -145,6 +182,10 @@ bool Geometry::intersect(const Ray& ray, SurfaceHit& hit) const {
 }
 
 bool Geometry::occluded(const Ray& ray) const {
+    if (impl_->textures) {
+        SurfaceHit hit;
+        return intersect(ray, hit);
+    }
     RTCRay query = singleRay(ray);
     embree::occluded(impl_->world.still.scene.get(), query);
     return query.tfar < 0;
@@ -166,11 +207,17 @@ void Geometry::intersect(std::span<const Ray> rays, std::span<SurfaceHit> hits) 
             FoundHit found{
                 h.primID[i], query.ray.tfar[i], {h.u[i], h.v[i]}, {h.Ng_x[i], h.Ng_y[i], h.Ng_z[i]}};
             impl_->resolve(part[i], h.instID[0][i], h.geomID[i], found, hit);
+            if (hit.alpha >= 0) passMasked(part[i], hit);
         }
     }
 }
 
 void Geometry::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const {
+    if (impl_->textures) {
+        for (std::size_t i = 0; i < rays.size(); ++i)
+            occluded[i] = rays[i].tMax > 0 && this->occluded(rays[i]);
+        return;
+    }
     for (std::size_t first = 0; first < rays.size(); first += kPacket) {
         auto part = rays.subspan(first, std::min<std::size_t>(kPacket, rays.size() - first));
         RTCRay16 query;
@@ -182,6 +229,14 @@ void Geometry::occluded(std::span<const Ray> rays, std::span<std::uint8_t> occlu
 }
 
 void Geometry::distances(std::span<const Ray> rays, std::span<float> distances) const {
+    if (impl_->textures) {
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            SurfaceHit hit;
+            distances[i] =
+                rays[i].tMax > 0 && intersect(rays[i], hit) ? hit.t : std::numeric_limits<float>::infinity();
+        }
+        return;
+    }
     for (std::size_t first = 0; first < rays.size(); first += kPacket) {
         auto part = rays.subspan(first, std::min<std::size_t>(kPacket, rays.size() - first));
         RTCRayHit16 query;

@@ -14,6 +14,8 @@ namespace slant {
 
 class Placement;
 
+// Surfaces with an alpha stop a ray by a number that is made of its origin and direction, as in pbrt; where
+// they do not, it goes on from there.
 class Geometry {
 public:
     /// The scene must outlive the geometry. Throws Error(badInput) for shapes that cannot be used, with their
@@ -45,6 +47,9 @@ public:
     const Placement& placement(int mover) const;
 
 private:
+    bool nearest(const Ray& ray, SurfaceHit& hit) const;
+    void passMasked(const Ray& ray, SurfaceHit& hit) const;
+
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

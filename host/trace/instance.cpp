@@ -146,6 +146,7 @@ void PlacedFrame::toWorld(SurfaceHit& hit) const {
     hit.geometricNormal = glm::normalize(normalMatrix * glm::dvec3(hit.geometricNormal));
     hit.shadingNormal = glm::normalize(normalMatrix * glm::dvec3(hit.shadingNormal));
     hit.dpdu = linear * glm::dvec3(hit.dpdu);
+    hit.dpdv = linear * glm::dvec3(hit.dpdv);
 }
 
 Instance::Instance(const Body& body, const Placement& placement)

@@ -31,10 +31,11 @@ struct SurfaceHit {
     glm::vec3 geometricNormal{
         0}; ///< unit; pbrt's n: flipped by ReverseOrientation, handedness, shading normals
     glm::vec3 shadingNormal{0}; ///< unit; pbrt's ns: on the side of geometricNormal
-    glm::vec3 dpdu{0};          ///< pbrt's shading dpdu; not normalised
+    glm::vec3 dpdu{0}, dpdv{0}; ///< pbrt's shading ones; not normalised
     glm::vec2 uv{0};
     glm::vec3 positionError{0}; ///< bound on |error| of each coordinate, for offsetting new rays
     int materialIndex = -1;
+    int alpha = -1; ///< Shape::alpha
     EmitterId emitter;
     float time = 0; ///< of the ray
     int mover = -1; ///< how it moves (Geometry::placement); -1: it keeps still

@@ -1,6 +1,7 @@
 #include "trace/lights.h"
 
 #include "base/error.h"
+#include "camera/octahedral.h"
 
 namespace slant {
 namespace {
@@ -38,7 +39,7 @@ LightBounds boundsAtOnce(const Emitter& e, std::span<const EmitterQuadric> quadr
     };
     switch (e.shape) {
     case Emitter::Shape::point:
-        b.intensity = luminance(e.radiance);
+        b.intensity = luminance(e.profile ? e.radiance * e.profile->mean() : e.radiance);
         break;
     case Emitter::Shape::patch:
         cover(e.origin + e.edge1 + e.edge2 + e.twist);
@@ -57,7 +58,9 @@ LightBounds boundsAtOnce(const Emitter& e, std::span<const EmitterQuadric> quadr
         break;
     case Emitter::Shape::quadric: {
         const EmitterQuadric& q = quadrics[std::size_t(e.quadric)];
-        float low = q.disc ? q.height : -q.radius, high = q.disc ? q.height : q.radius;
+        float low = q.kind == ShapeKind::cylinder ? q.zMin : -q.radius,
+              high = q.kind == ShapeKind::cylinder ? q.zMax : q.radius;
+        if (q.kind == ShapeKind::disk) low = high = q.height;
         b.low = glm::vec3(kInfinity);
         b.high = glm::vec3(-kInfinity);
         for (int corner = 0; corner < 8; ++corner)
@@ -68,6 +71,18 @@ LightBounds boundsAtOnce(const Emitter& e, std::span<const EmitterQuadric> quadr
     }
     }
     return b;
+}
+
+/// Bilinear; beyond its edges the image goes on as it is there. Its first row lies at the top.
+glm::vec3 lookUp(const Image& image, glm::vec2 uv) {
+    const glm::vec2 p = glm::vec2(uv.x, 1 - uv.y) * glm::vec2(image.width(), image.height()) - 0.5f;
+    const glm::vec2 corner = glm::floor(p), f = p - corner;
+    const auto texel = [&](int dx, int dy) {
+        const int x = std::clamp(int(corner.x) + dx, 0, image.width() - 1),
+                  y = std::clamp(int(corner.y) + dy, 0, image.height() - 1);
+        return glm::max(glm::vec3(image.at(x, y, 0), image.at(x, y, 1), image.at(x, y, 2)), 0.f);
+    };
+    return glm::mix(glm::mix(texel(0, 0), texel(1, 0), f.x), glm::mix(texel(0, 1), texel(1, 1), f.x), f.y);
 }
 
 /// Two triangles side by side in one plane that shine to the same side: one light to choose.
@@ -95,44 +110,66 @@ Lights::Lights(const Scene& scene) {
 }
 
 void Lights::addLight(const Scene& scene, const Light& light) {
-    glm::vec3 emission = light.emission * light.scale;
     switch (light.kind) {
-    case LightKind::point: {
-        Emitter e;
-        e.origin = transformPoint(light.worldFromLight, light.from);
-        e.radiance = emission * (light.power ? *light.power / (4 * kPi) : 1.f);
-        emitters_.push_back(e);
+    case LightKind::point:
+    case LightKind::spot:
+    case LightKind::goniometric:
+    case LightKind::projection:
+        addPointLight(scene, light);
         break;
-    }
     case LightKind::distant: {
         glm::dvec3 back = glm::dmat3(light.worldFromLight) * (glm::dvec3(light.from) - glm::dvec3(light.to));
         if (!(glm::length(back) > 0))
             throw badInput(light.location, "distant light: \"from\" and \"to\" are the same");
-        distant_.push_back({glm::vec3(glm::normalize(back)), emission * light.illuminance.value_or(1.f)});
+        distant_.push_back({glm::vec3(glm::normalize(back)),
+                            light.emission * light.scale * light.illuminance.value_or(1.f)});
         break;
     }
     case LightKind::infinite:
-        if (light.imageIndex < 0) {
-            infinite_.emplace_back(emission * (light.illuminance ? *light.illuminance / kPi : 1.f));
-            break;
-        }
-        const Image& image = scene.images[std::size_t(light.imageIndex)];
-        if (image.width() != image.height() || image.width() < 1 || image.channelCount() != 3)
-            throw badInput(light.location,
-                           "infinite light: its image must be square (equal-area octahedral) with "
-                           "channels R, G, B; it is {} x {} with {} channels",
-                           image.width(), image.height(), image.channelCount());
-        float scale = light.scale;
-        if (light.illuminance) {
-            float given = mapIlluminance(image);
-            if (!(given > 0))
-                throw badInput(light.location,
-                               "infinite light: \"illuminance\" needs an image that is not black above");
-            scale *= *light.illuminance / given;
-        }
-        infinite_.emplace_back(image, scale, light.worldFromLight);
+        addInfiniteLight(scene, light);
         break;
     }
+}
+
+void Lights::addPointLight(const Scene& scene, const Light& light) {
+    Emitter e;
+    e.origin = transformPoint(light.worldFromLight, light.from);
+    if (light.kind == LightKind::point) {
+        e.radiance = light.emission * light.scale * (light.power ? *light.power / (4 * kPi) : 1.f);
+    } else {
+        e.profile = &profiles_.emplace_back(scene, light);
+        const float whole = e.profile->powerOfOne();
+        e.radiance = glm::vec3(light.scale * (light.power && whole > 0 ? *light.power / whole : 1.f));
+    }
+    emitters_.push_back(e);
+}
+
+void Lights::addInfiniteLight(const Scene& scene, const Light& light) {
+    portals_.emplace_back();
+    if (light.portal) {
+        portals_.back().emplace(*light.portal, light.location);
+        complete_ = false;
+    }
+    if (light.imageIndex < 0) {
+        infinite_.emplace_back(light.emission * light.scale *
+                               (light.illuminance ? *light.illuminance / kPi : 1.f));
+        return;
+    }
+    const Image& image = scene.images[std::size_t(light.imageIndex)];
+    if (image.width() != image.height() || image.width() < 1 || image.channelCount() != 3)
+        throw badInput(light.location,
+                       "infinite light: its image must be square (equal-area octahedral) with "
+                       "channels R, G, B; it is {} x {} with {} channels",
+                       image.width(), image.height(), image.channelCount());
+    float scale = light.scale;
+    if (light.illuminance) {
+        float given = mapIlluminance(image);
+        if (!(given > 0))
+            throw badInput(light.location,
+                           "infinite light: \"illuminance\" needs an image that is not black above");
+        scale *= *light.illuminance / given;
+    }
+    infinite_.emplace_back(image, scale, light.worldFromLight);
 }
 
 template <typename Use>
@@ -173,7 +210,9 @@ void Lights::addTree() {
     leafOf_.assign(emitters_.size(), -1);
     for (std::size_t i = 0; i < emitters_.size(); ++i) {
         const Emitter& e = emitters_[i];
-        if (!e.sampled || !(luminance(e.radiance) > 0)) continue;
+        if (!(luminance(e.radiance) > 0)) continue;
+        if (!e.sampled && e.area > 0) complete_ = false;
+        if (!e.sampled) continue;
         if (!e.bounded()) complete_ = false;
         LightBounds own = boundsOf(e);
         if (i > 0 && leafOf_[i - 1] >= 0 && leaves_.back().second < 0 &&
@@ -207,7 +246,9 @@ int Lights::pieceOf(const SurfaceHit& hit) const {
 glm::vec3 Lights::emitted(const SurfaceHit& hit, glm::vec3 wo) const {
     if (hit.emitter.light < 0) return glm::vec3(0);
     const Emitter& e = emitters_[std::size_t(pieceOf(hit))];
-    return e.twoSided || glm::dot(hit.geometricNormal, wo) >= 0 ? e.radiance : glm::vec3(0);
+    if (!e.twoSided && glm::dot(hit.geometricNormal, wo) < 0) return glm::vec3(0);
+    const Image* image = shapes_[std::size_t(hit.emitter.light)].image;
+    return image ? e.radiance * lookUp(*image, hit.uv) : e.radiance;
 }
 
 bool Lights::complete(const SurfaceHit& hit) const {
@@ -258,9 +299,12 @@ bool Lights::sample(const Receiver& receiver, float choice, glm::vec2 u, LightSa
     std::size_t option = std::size_t(chosen);
     if (option < infinite_.size()) {
         const Environment& environment = infinite_[option];
-        glm::vec3 direction = environment.sample(receiver.normal, choice, u);
-        float pdf = chance * environment.pdf(receiver.normal, direction);
-        sample = {direction, kInfinity, environment.radiance(direction), pdf, false, true};
+        const auto& portal = portals_[option];
+        glm::vec3 direction =
+            portal ? portal->sample(receiver.position, u) : environment.sample(receiver.normal, choice, u);
+        float pdf = chance * (portal ? portal->pdf(receiver.position, direction)
+                                     : environment.pdf(receiver.normal, direction));
+        sample = {direction, kInfinity, environment.radiance(direction), pdf, false, !portal};
         return pdf > 0;
     }
     if (option < infinite_.size() + distant_.size()) {
@@ -278,6 +322,7 @@ bool Lights::sample(const Receiver& receiver, float choice, glm::vec2 u, LightSa
             return sampleEmitter(e, quadrics, receiver, u, sample);
         });
     if (!found) return false;
+    if (emitters_[std::size_t(first ? leaf.first : leaf.second)].invisible) sample.delta = true;
     sample.pdf *= chance * treeChance * (first ? leaf.firstChance : 1 - leaf.firstChance);
     return true;
 }
@@ -294,7 +339,8 @@ float Lights::pdf(const Receiver& receiver, const SurfaceHit& hit, glm::vec3 dir
 }
 
 float Lights::infinitePdf(const Receiver& receiver, std::size_t i, glm::vec3 direction) const {
-    return optionChance(i, receiver) * infinite_[i].pdf(receiver.normal, direction);
+    return optionChance(i, receiver) * (portals_[i] ? portals_[i]->pdf(receiver.position, direction)
+                                                    : infinite_[i].pdf(receiver.normal, direction));
 }
 
 } // namespace slant

@@ -10,6 +10,10 @@
 #include "trace/environment.h"
 #include "trace/interaction.h"
 #include "trace/light_tree.h"
+#include "trace/portal.h"
+
+#include <deque>
+#include <optional>
 
 namespace slant {
 
@@ -39,6 +43,13 @@ public:
 
     std::size_t infiniteCount() const { return infinite_.size(); }
     const Environment& infinite(std::size_t i) const { return infinite_[i]; }
+    /// Radiance of infinite light i that arrives at `position` along `direction` (unit, towards the light).
+    glm::vec3 infiniteRadiance(std::size_t i, glm::vec3 position, glm::vec3 direction) const {
+        if (portals_[i] && !portals_[i]->shows(position, direction)) return glm::vec3(0);
+        return infinite_[i].radiance(direction);
+    }
+    /// Whether estimates of infinite light i are bounded.
+    bool infiniteBounded(std::size_t i) const { return !portals_[i]; }
     /// Density with which sample() returns `direction` as one of infinite light i.
     float infinitePdf(const Receiver& receiver, std::size_t i, glm::vec3 direction) const;
 
@@ -53,6 +64,8 @@ private:
         float firstChance;
     };
     void addLight(const Scene& scene, const Light& light);
+    void addPointLight(const Scene& scene, const Light& light);
+    void addInfiniteLight(const Scene& scene, const Light& light);
     void addTree();
     /// Calls use(emitter, quadrics) with an emitter as it is at a time.
     template <typename Use>
@@ -73,7 +86,9 @@ private:
     std::vector<EmitterMotion> motions_;
     std::vector<EmittingShape> shapes_;
     std::vector<Environment> infinite_;
+    std::vector<std::optional<Portal>> portals_; ///< of infinite lights
     std::vector<Distant> distant_;
+    std::deque<PointProfile> profiles_; ///< of points
     LightTree tree_;
     std::vector<Leaf> leaves_; ///< as the tree numbers them
     std::vector<int> leafOf_;  ///< for each emitter; -1 = not sampled

@@ -22,6 +22,12 @@ glm::vec3 diffuseShareOf(const Bsdf& bsdf, glm::vec3 wi, const PathState& state)
     return {share(diffuse.x, all.x), share(diffuse.y, all.y), share(diffuse.z, all.z)};
 }
 
+/// Light is looked for on one side of a surface at a time: on the one that `normal` points to.
+float sideChance(const Bsdf& bsdf, bool near) {
+    if (!bsdf.transmits()) return 1;
+    return near ? bsdf.nearChance() : 1 - bsdf.nearChance();
+}
+
 } // namespace
 
 void addEmission(const Lights& lights, const SurfaceHit& hit, glm::vec3 wo, PathState& state) {
@@ -31,24 +37,29 @@ void addEmission(const Lights& lights, const SurfaceHit& hit, glm::vec3 wo, Path
         float weight = 1;
         if (state.origin == PathState::Origin::diffuse && lights.complete(hit)) return;
         if (state.origin != PathState::Origin::camera)
-            weight = powerHeuristic(state.pdf, lights.pdf(state.receiver, hit, -wo));
+            weight = powerHeuristic(state.pdf, state.lightChance * lights.pdf(state.receiver, hit, -wo));
         state.add(state.throughput * emitted * weight);
         return;
     }
-    if (state.origin == PathState::Origin::diffuse) return;
     for (std::size_t i = 0; i < lights.infiniteCount(); ++i) {
+        if (state.origin == PathState::Origin::diffuse && lights.infiniteBounded(i)) continue;
         float weight = 1;
-        if (state.origin == PathState::Origin::glossy)
-            weight = powerHeuristic(state.pdf, lights.infinitePdf(state.receiver, i, -wo));
-        state.add(state.throughput * lights.infinite(i).radiance(-wo) * weight);
+        if (state.origin != PathState::Origin::camera)
+            weight =
+                powerHeuristic(state.pdf, state.lightChance * lights.infinitePdf(state.receiver, i, -wo));
+        state.add(state.throughput * lights.infiniteRadiance(i, state.ray.origin, -wo) * weight);
     }
 }
 
 ShadowRay sampleDirectLight(const Lights& lights, const Bsdf& bsdf, const SurfaceHit& hit,
-                            const PathState& state, float choice, glm::vec2 u) {
+                            const PathState& state, float side, float choice, glm::vec2 u) {
     ShadowRay shadow;
     LightSample light;
-    if (!lights.sample({hit.position, bsdf.normal(), state.ray.time}, choice, u, light)) return shadow;
+    const bool near = !bsdf.transmits() || side < bsdf.nearChance();
+    const Receiver receiver{hit.position, near ? bsdf.normal() : -bsdf.normal(), state.ray.time};
+    if (!lights.sample(receiver, choice, u, light)) return shadow;
+    light.pdf *= sideChance(bsdf, near);
+    if (bsdf.transmits() && glm::dot(light.direction, receiver.normal) <= 0) return shadow;
     glm::vec3 value = bsdf.evaluate(light.direction);
     if (value == glm::vec3(0) || light.radiance == glm::vec3(0)) return shadow;
     float weight = 1;
@@ -75,7 +86,10 @@ bool continuePath(const Lights& lights, const Bsdf& bsdf, const SurfaceHit& hit,
                                    : PathState::Origin::diffuse;
     if (!next.specular) state.diffuseShare = diffuseShareOf(bsdf, next.direction, state);
     state.throughput *= next.weight;
-    state.receiver = {hit.position, bsdf.normal(), state.ray.time};
+    state.etaScale *= next.eta * next.eta;
+    const bool near = !bsdf.transmits() || glm::dot(next.direction, bsdf.normal()) > 0;
+    state.receiver = {hit.position, near ? bsdf.normal() : -bsdf.normal(), state.ray.time};
+    state.lightChance = sideChance(bsdf, near);
     state.pdf = next.pdf;
     state.ray = {offsetRayOrigin(hit.position, hit.positionError, hit.geometricNormal, next.direction),
                  next.direction, std::numeric_limits<float>::infinity(), state.ray.time};

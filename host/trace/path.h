@@ -50,8 +50,10 @@ struct PathState {
     glm::vec3 diffuseShare{0}; ///< how much of what is added to the radiance is diffuse
     int depth = 0;             ///< scattering events so far
     Origin origin = Origin::camera;
-    Receiver receiver; ///< the ray's origin, unless it is the camera
-    float pdf = 0;     ///< of the ray's direction there
+    Receiver receiver;     ///< the ray's origin, unless it is the camera
+    float pdf = 0;         ///< of the ray's direction there
+    float lightChance = 1; ///< there, of looking for light on the side of the ray's direction
+    float etaScale = 1;    ///< of the throughput, what refractions owe to the indices alone, inverted
 
     void add(glm::vec3 light) { add(light, diffuseShare); }
     void add(const ShadowRay& shadow) { add(shadow.contribution, shadow.diffuseShare); }
@@ -75,9 +77,9 @@ inline PathState startPath(const Ray& cameraRay) {
 /// the ray.
 void addEmission(const Lights& lights, const SurfaceHit& hit, glm::vec3 wo, PathState& state);
 
-/// Direct light at a vertex by sampling one light.
+/// Direct light at a vertex by sampling one light, on one side of the surface.
 ShadowRay sampleDirectLight(const Lights& lights, const Bsdf& bsdf, const SurfaceHit& hit,
-                            const PathState& state, float choice, glm::vec2 u);
+                            const PathState& state, float side, float choice, glm::vec2 u);
 
 /// Whether a last vertex sends a ray just to see what light it meets.
 bool bsdfRayNeeded(const Lights& lights, const Bsdf& bsdf);
@@ -111,13 +113,14 @@ bool scatter(const Shading& shading, const SurfaceHit& hit, int maxDepth, Sample
 
     if (bsdf.scatters() && shading.lights.canSample()) {
         float choice = shading.lights.needsChoice() ? sampler.next1D() : 0.f;
-        shadow = sampleDirectLight(shading.lights, bsdf, hit, state, choice, sampler.next2D());
+        float side = bsdf.transmits() ? sampler.next1D() : 0.f;
+        shadow = sampleDirectLight(shading.lights, bsdf, hit, state, side, choice, sampler.next2D());
     }
     if (state.depth == maxDepth && !bsdfRayNeeded(shading.lights, bsdf)) return false;
     float lobe = bsdf.hasTwoLobes() ? sampler.next1D() : 0.f;
     if (!continuePath(shading.lights, bsdf, hit, maxDepth, lobe, sampler.next2D(), state)) return false;
 
-    float brightest = maxComponent(state.throughput);
+    float brightest = maxComponent(state.throughput) * state.etaScale;
     if (brightest < 1 && state.depth > 1) { // Russian roulette, as in pbrt-v4
         if (sampler.next1D() >= brightest) return false;
         state.throughput /= brightest;

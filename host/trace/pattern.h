@@ -8,6 +8,7 @@
 // works). Pairs of dimensions are Sobol' points after Owen scrambling by hashes (Burley, "Practical
 // Hash-based Owen Scrambling", 2020; hash constants by N. Vegdahl, 2021).
 #pragma once
+#include <bit>
 #include <cstdint>
 #include <glm/glm.hpp>
 
@@ -28,6 +29,12 @@ constexpr std::uint32_t hashWords(std::uint32_t a, std::uint32_t b) {
     x = (x ^ (x >> 16)) * 0x7feb352du;
     x = (x ^ (x >> 15)) * 0x846ca68bu;
     return x ^ (x >> 16);
+}
+
+/// The same of the bits of three numbers.
+inline std::uint32_t hashVector(glm::vec3 v) {
+    const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
+    return hashWords(hashWords(bits(v.x), bits(v.y)), bits(v.z));
 }
 
 /// Owen scrambling of a number whose bits are given in opposite order, left in that order: each bit is

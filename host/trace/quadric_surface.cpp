@@ -37,12 +37,13 @@ QuadricSurface::QuadricSurface(const Shape& shape)
     normalMatrix_ = glm::transpose(inverseLinear_);
     offset_ = glm::dvec3(matrix[3]);
 
-    zMin_ = std::clamp(double(std::min(shape.zMin, shape.zMax)), -radius_, radius_);
-    zMax_ = std::clamp(double(std::max(shape.zMin, shape.zMax)), -radius_, radius_);
+    const double limit = kind_ == ShapeKind::cylinder ? std::numeric_limits<double>::infinity() : radius_;
+    zMin_ = std::clamp(double(std::min(shape.zMin, shape.zMax)), -limit, limit);
+    zMax_ = std::clamp(double(std::max(shape.zMin, shape.zMax)), -limit, limit);
     thetaZMin_ = std::acos(std::clamp(zMin_ / radius_, -1.0, 1.0));
     thetaZMax_ = std::acos(std::clamp(zMax_ / radius_, -1.0, 1.0));
     whole_ = shape.phiMaxDegrees >= 360 && zMin_ == -radius_ && zMax_ == radius_;
-    if (kind_ == ShapeKind::sphere)
+    if (kind_ != ShapeKind::disk)
         bounds_ = transformedBounds(matrix, {-radius_, -radius_, zMin_}, {radius_, radius_, zMax_});
     else
         bounds_ = transformedBounds(matrix, {-radius_, -radius_, height_}, {radius_, radius_, height_});
@@ -55,7 +56,14 @@ bool QuadricSurface::insidePhi(glm::dvec3 p) const {
 std::optional<SurfaceLocation> QuadricSurface::intersect(std::uint32_t, const SurfaceRay& ray,
                                                          double tMax) const {
     SurfaceRay objectRay{inverseLinear_ * (ray.origin - offset_), inverseLinear_ * ray.direction};
-    return kind_ == ShapeKind::sphere ? intersectSphere(objectRay, tMax) : intersectDisk(objectRay, tMax);
+    switch (kind_) {
+    case ShapeKind::sphere:
+        return intersectSphere(objectRay, tMax);
+    case ShapeKind::cylinder:
+        return intersectCylinder(objectRay, tMax);
+    default:
+        return intersectDisk(objectRay, tMax);
+    }
 }
 
 std::optional<SurfaceLocation> QuadricSurface::intersectSphere(const SurfaceRay& ray, double tMax) const {
@@ -79,6 +87,27 @@ std::optional<SurfaceLocation> QuadricSurface::intersectSphere(const SurfaceRay&
     return std::nullopt;
 }
 
+std::optional<SurfaceLocation> QuadricSurface::intersectCylinder(const SurfaceRay& ray, double tMax) const {
+    const glm::dvec2 o(ray.origin), d(ray.direction);
+    const double a = glm::dot(d, d), b = glm::dot(o, d);
+    const glm::dvec2 nearest = o - (b / a) * d;
+    const double discriminant = radius_ * radius_ - glm::dot(nearest, nearest);
+    if (!(discriminant >= 0)) return std::nullopt;
+    const double q = -(b + std::copysign(std::sqrt(a * discriminant), b));
+    if (q == 0) return std::nullopt;
+    double t0 = q / a, t1 = (glm::dot(o, o) - radius_ * radius_) / q;
+    if (t0 > t1) std::swap(t0, t1);
+    for (const double t : {t0, t1}) {
+        if (!(t > 0 && t < tMax)) continue;
+        glm::dvec3 p = ray.origin + t * ray.direction;
+        const double scale = radius_ / std::sqrt(p.x * p.x + p.y * p.y);
+        p.x *= scale;
+        p.y *= scale;
+        if (p.z >= zMin_ && p.z <= zMax_ && insidePhi(p)) return SurfaceLocation{t, p};
+    }
+    return std::nullopt;
+}
+
 std::optional<SurfaceLocation> QuadricSurface::intersectDisk(const SurfaceRay& ray, double tMax) const {
     if (ray.direction.z == 0) return std::nullopt;
     double t = (height_ - ray.origin.z) / ray.direction.z;
@@ -98,23 +127,32 @@ SurfaceLocation QuadricSurface::locate(const FoundHit& found, const SurfaceRay& 
 }
 
 void QuadricSurface::describe(std::uint32_t, const SurfaceLocation& at, SurfaceHit& hit) const {
-    glm::dvec3 p = at.local, normal;
+    glm::dvec3 p = at.local, normal, dpdv;
     double phi = angleAround(p);
     if (kind_ == ShapeKind::sphere) {
         double theta = std::acos(std::clamp(p.z / radius_, -1.0, 1.0));
         hit.uv = {float(phi / phiMax_), float((theta - thetaZMin_) / (thetaZMax_ - thetaZMin_))};
         normal = p;
         if (p.x == 0 && p.y == 0) p.x = 1e-5 * radius_; // the pole: any direction around the axis will do
+        const double distance = std::sqrt(p.x * p.x + p.y * p.y);
+        dpdv = (thetaZMax_ - thetaZMin_) *
+               glm::dvec3(p.z * p.x / distance, p.z * p.y / distance, -radius_ * std::sin(theta));
+    } else if (kind_ == ShapeKind::cylinder) {
+        hit.uv = {float(phi / phiMax_), float((p.z - zMin_) / (zMax_ - zMin_))};
+        normal = {p.x, p.y, 0};
+        dpdv = {0, 0, zMax_ - zMin_};
     } else {
         double distance = std::sqrt(p.x * p.x + p.y * p.y);
         hit.uv = {float(phi / phiMax_), float((radius_ - distance) / (radius_ - innerRadius_))};
         normal = {0, 0, 1};
         if (distance == 0) p.x = 1e-5 * radius_;
+        dpdv = (innerRadius_ - radius_) * glm::normalize(glm::dvec3(p.x, p.y, 0));
     }
     normal = glm::normalize(normalMatrix_ * (flip_ ? -normal : normal));
     hit.position = linear_ * at.local + offset_;
     hit.geometricNormal = hit.shadingNormal = normal;
     hit.dpdu = linear_ * glm::dvec3(-phiMax_ * p.y, phiMax_ * p.x, 0);
+    hit.dpdv = linear_ * dpdv;
     hit.positionError = gammaBound(2) * glm::abs(hit.position);
 }
 

@@ -1,4 +1,4 @@
-// Spheres and disks, whole or partial, as pbrt defines them.
+// Spheres, disks and cylinders, whole or partial, as pbrt defines them.
 #pragma once
 #include "trace/surface.h"
 
@@ -17,13 +17,15 @@ public:
 
 private:
     std::optional<SurfaceLocation> intersectSphere(const SurfaceRay& objectRay, double tMax) const;
+    std::optional<SurfaceLocation> intersectCylinder(const SurfaceRay& objectRay, double tMax) const;
     std::optional<SurfaceLocation> intersectDisk(const SurfaceRay& objectRay, double tMax) const;
     bool insidePhi(glm::dvec3 p) const;
 
     ShapeKind kind_;
     double radius_, phiMax_;
-    double zMin_, zMax_, thetaZMin_, thetaZMax_; ///< sphere
-    double height_, innerRadius_;                ///< disk
+    double zMin_, zMax_;           ///< sphere, cylinder
+    double thetaZMin_, thetaZMax_; ///< sphere
+    double height_, innerRadius_;  ///< disk
     bool flip_, whole_;
     glm::dmat3 linear_, inverseLinear_, normalMatrix_;
     glm::dvec3 offset_;

@@ -199,6 +199,10 @@ LightField traceLightField(const Tracer& tracer, const Scene& scene, const Sampl
                            Monitor& monitor, MotionMisses* misses) {
     SampleOptions options = asked;
     options.planes.motion = tracer.moves();
+    if (tracer.moves() && !tracer.camera().isProjective())
+        throw badInput({scene.path, 0, 0},
+                       "nothing moves straight in the picture of a spherical camera: a scene that "
+                       "moves can only be rendered by `slant reference`");
     const int spp = options.samplesPerPixel;
     const Rect frame = scene.film.crop;
     const LensMap lensMap = tracer.camera().lensMap();

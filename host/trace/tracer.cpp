@@ -32,9 +32,9 @@ float diagonalOf(const Box& box) {
 
 } // namespace
 
-Tracer::Tracer(const Scene& scene, Monitor& monitor)
-    : scene_(scene), camera_(scene), geometry_(scene, monitor), shading_(scene), motion_(camera_, geometry_) {
-}
+Tracer::Tracer(const Scene& scene, Monitor& monitor, SlopeSource slopes)
+    : scene_(scene), camera_(scene), geometry_(scene, monitor), shading_(scene), motion_(camera_, geometry_),
+      findsImages_(slopes == SlopeSource::optics && camera_.slopeModel().c1 != 0) {}
 
 std::pair<double, double> Tracer::depthRange() const {
     std::vector<float> depths;
@@ -73,17 +73,9 @@ void Tracer::trace(Rect pixels, int firstSample, int count, int samplesPerPixel,
         !fits(out.blocker, out.position.empty()) || !fits(out.direct, out.position.empty()))
         throw Error(ErrorCode::usage, "the buffers do not fit the samples to trace");
     if (samples == 0) return;
-    TraceJob job{scene_,
-                 camera_,
-                 geometry_,
-                 shading_,
-                 pattern,
-                 pixels,
-                 firstSample,
-                 count,
-                 out,
-                 motion_,
-                 kFarAway * diagonalOf(geometry_.bounds())};
+    TraceJob job{scene_,  camera_, geometry_,    shading_,
+                 pattern, pixels,  firstSample,  count,
+                 out,     motion_, findsImages_, kFarAway * diagonalOf(geometry_.bounds())};
     std::mutex mutex;
     const int column0 = floorDivide(pixels.x0, kBlockSize),
               column1 = floorDivide(pixels.x1 - 1, kBlockSize) + 1;

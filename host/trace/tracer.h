@@ -8,6 +8,7 @@
 #include "trace/geometry.h"
 #include "trace/path.h"
 #include "trace/sample_motion.h"
+#include "trace/sample_options.h"
 
 #include <span>
 #include <utility>
@@ -18,7 +19,7 @@ namespace slant {
 class Tracer {
 public:
     /// Throws Error(badInput) for a scene that cannot be traced, Error(resources) when memory runs out.
-    Tracer(const Scene& scene, Monitor& monitor);
+    Tracer(const Scene& scene, Monitor& monitor, SlopeSource slopes = SlopeSource::optics);
 
     /// Writes samples [firstSample, firstSample + count) of each pixel of `pixels`, a pattern of
     /// samplesPerPixel, in the order of LightField: row, column, sample. Any pixels are allowed, on the film
@@ -45,6 +46,7 @@ private:
     Geometry geometry_;
     Shading shading_;
     SampleMotion motion_;
+    bool findsImages_; ///< samples show the depths of what is seen in mirrors and through glass
 };
 
 } // namespace slant

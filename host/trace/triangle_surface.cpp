@@ -42,9 +42,15 @@ void TriangleSurface::describe(std::uint32_t primitive, const SurfaceLocation& a
     hit.uv = b.x * uv[0] + b.y * uv[1] + b.z * uv[2];
     glm::dvec2 uv02 = uv[0] - uv[2], uv12 = uv[1] - uv[2];
     double determinant = uv02.x * uv12.y - uv02.y * uv12.x;
-    glm::dvec3 dpdu(0);
-    if (std::abs(determinant) >= 1e-9) dpdu = (uv12.y * p02 - uv02.y * p12) / determinant;
-    if (!(glm::dot(dpdu, dpdu) > 0)) dpdu = anyTangent(normal);
+    glm::dvec3 dpdu(0), dpdv(0);
+    if (std::abs(determinant) >= 1e-9) {
+        dpdu = (uv12.y * p02 - uv02.y * p12) / determinant;
+        dpdv = (uv02.x * p12 - uv12.x * p02) / determinant;
+    }
+    if (!(glm::dot(dpdu, dpdu) > 0)) {
+        dpdu = anyTangent(normal);
+        dpdv = glm::cross(normal, dpdu);
+    }
 
     glm::dvec3 shading = normal;
     if (!normals_.empty()) {
@@ -54,10 +60,12 @@ void TriangleSurface::describe(std::uint32_t primitive, const SurfaceLocation& a
         if (size > 0) shading = sum / size;
         if (glm::dot(normal, shading) < 0) normal = -normal;
         dpdu = tangentAcross(dpdu, shading);
+        dpdv = glm::cross(shading, dpdu);
     }
     hit.geometricNormal = normal;
     hit.shadingNormal = shading;
     hit.dpdu = dpdu;
+    hit.dpdv = dpdv;
 }
 
 } // namespace slant

@@ -95,7 +95,7 @@ TEST(SceneErrors, parameterLists) {
             {"\"float radius\" -1", ":2:16: 'radius' is -1, but must be above 0"},
             {"\"float zmin\" 3 \"float zmax\" 4",
              ":2:1: nothing is left of this sphere between zmin and zmax, 0 and phimax"},
-            {"\"texture alpha\" \"holes\"", ":2:16: 'alpha' is not supported"},
+            {"\"texture alpha\" \"holes\"", ":2:16: there is no float texture 'holes'"},
             {"\"float radius\" 1 \"unclosed", ":2:33: this string has no closing quote in its line"},
         },
         shape);
@@ -108,7 +108,11 @@ TEST(SceneErrors, shapes) {
     check(
         {
             {"\"spher\"", ":2:1: shape \"spher\" is not supported, did you mean 'sphere'?"},
-            {"\"cylinder\"", ":2:1: shape \"cylinder\" is not supported"},
+            {"\"cone\"", ":2:1: shape \"cone\" is not supported"},
+            {"\"cylinder\" \"float zmin\" 1",
+             ":2:1: nothing is left of this cylinder between zmin and zmax, 0 and phimax"},
+            {"\"loopsubdiv\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer levels\" 15",
+             ":2:51: 1 triangles cut 15 times are too many"},
             {"\"disk\" \"float innerradius\" 1",
              ":2:1: nothing is left of this disk between its radii, 0 and phimax"},
             {"\"trianglemesh\"", ":2:1: Shape \"trianglemesh\" needs \"point3 P\""},
@@ -178,7 +182,7 @@ TEST(SceneErrors, options) {
         {"Integrator \"path\" \"integer maxdpth\" 1 WorldBegin",
          ":1:19: Integrator \"path\" has no parameter 'maxdpth', or none that is supported, did you mean "
          "'maxdepth'?"},
-        {"Camera \"orthographic\" WorldBegin", ":1:1: camera \"orthographic\" is not supported"},
+        {"Camera \"environment\" WorldBegin", ":1:1: camera \"environment\" is not supported"},
         {"Camera \"perspective\" \"float fov\" 180 WorldBegin",
          ":1:22: 'fov' is 180, but must be above 0 and at most 179.99"},
         {"Camera \"perspective\" \"float lensradius\" -1 WorldBegin",
@@ -208,7 +212,7 @@ TEST(SceneErrors, materialsAndTextures) {
         {
             {"Material \"difuse\"", ":2:1: material \"difuse\" is not supported, did you mean 'diffuse'?"},
             {"Material \"varnish\"", ":2:1: material \"varnish\" is not supported"},
-            {"Material \"dielectric\"", ":2:1: material \"dielectric\" is not supported"},
+            {"Material \"hair\"", ":2:1: material \"hair\" is not supported"},
             {"Material \"diffuse\" \"rgb reflectance\" [1 1 2]",
              ":2:20: 'reflectance' is 2, but must be at least 0 and at most 1"},
             {"Material \"diffuse\" \"rgb reflectance\" [1 1 1 1 1 1]",
@@ -229,8 +233,18 @@ TEST(SceneErrors, materialsAndTextures) {
              ":2:20: blackbody 'reflectance' must be one temperature of a light"},
             {"Material \"coateddiffuse\" \"spectrum eta\" \"glass-BK8\"",
              ":2:26: 'eta': unknown glass \"glass-BK8\"; give \"float eta\", did you mean 'glass-BK7'?"},
-            {"Material \"diffuse\" \"texture displacement\" \"x\"",
-             ":2:20: Material \"diffuse\" has no parameter 'displacement', or none that is supported"},
+            {"Material \"diffuse\" \"texture displacement\" \"x\"", ":2:20: there is no float texture 'x'"},
+            {"Material \"mix\" \"string materials\" [\"a\"]",
+             ":2:16: Material \"mix\" needs two names: \"string materials\""},
+            {"MakeNamedMaterial \"a\" \"string type\" \"diffuse\" Material \"mix\" \"string materials\" "
+             "[\"a\" \"b\"]",
+             ":2:62: there is no material 'b', did you mean 'a'?"},
+            {"MakeNamedMaterial \"a\" \"string type\" \"mix\" \"string materials\" [\"a\" \"a\"]",
+             ":2:1: this material is a mix of itself, or nested more than 32 deep"},
+            {"MakeNamedMaterial \"a\" \"string type\" \"interface\"\nMaterial \"mix\" \"string materials\" "
+             "[\"a\" \"a\"]",
+             ":3:1: an \"interface\" cannot be part of a mix"},
+            {"Material \"dielectric\" \"float eta\" 0", ":2:23: 'eta' is 0, but must be above 0"},
             {"Material \"diffuse\" \"texture reflectance\" \"chekcs\"\nTexture \"checks\" \"spectrum\" "
              "\"constant\"",
              ":2:20: there is no spectrum texture 'chekcs', did you mean 'checks'?"},
@@ -279,7 +293,7 @@ TEST(SceneErrors, materialsAndTextures) {
 TEST(SceneErrors, lights) {
     check(
         {
-            {"LightSource \"spot\"", ":2:1: light \"spot\" is not supported"},
+            {"LightSource \"laser\"", ":2:1: light \"laser\" is not supported"},
             {"LightSource \"pointt\"", ":2:1: light \"pointt\" is not supported, did you mean 'point'?"},
             {"LightSource \"point\" \"rgb L\" [1 1 1]",
              ":2:21: LightSource \"point\" has no parameter 'L', or none that is supported"},
@@ -292,13 +306,15 @@ TEST(SceneErrors, lights) {
              ":2:24: 'L': spectrum \"stdillum-D75\" is not supported here; give \"rgb L\", did you mean "
              "'stdillum-D65'?"},
             {"LightSource \"infinite\" \"point3 portal\" [0 0 0]",
-             ":2:24: LightSource \"infinite\" has no parameter 'portal', or none that is supported"},
+             ":2:24: 'portal' needs four corners, not 1"},
             {"LightSource \"infinite\" \"rgb L\" [1 1 1] \"string filename\" \"a.exr\"",
              ":2:24: an infinite light has either 'L' or 'filename'"},
             {"AreaLightSource \"difuse\"",
              ":2:1: area light \"difuse\" is not supported, did you mean 'diffuse'?"},
-            {"AreaLightSource \"diffuse\" \"string filename\" \"a.exr\"",
-             ":2:27: AreaLightSource \"diffuse\" has no parameter 'filename', or none that is supported"},
+            {"AreaLightSource \"diffuse\" \"string filename\" \"a.exr\" \"rgb L\" [1 1 1]",
+             ":2:53: an area light has either 'L' or 'filename'"},
+            {"LightSource \"spot\" \"point3 to\" [0 0 0]", ":2:1: a spot light needs 'from' and 'to' apart"},
+            {"LightSource \"projection\"", ":2:1: LightSource \"projection\" needs \"string filename\""},
         },
         "WorldBegin\n");
 }

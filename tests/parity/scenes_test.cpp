@@ -59,9 +59,9 @@ TEST_P(SceneParity, runsRepeat) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneParity,
-                         testing::Values("spheres", "row", "lights", "foliage", "indirect", "row-dgauss",
-                                         "row-fisheye", "spin", "crossing", "dolly", "butterflies",
-                                         "shadows"),
+                         testing::Values("spheres", "row", "lights", "foliage", "indirect", "mirror",
+                                         "row-dgauss", "row-fisheye", "spin", "crossing", "dolly",
+                                         "butterflies", "shadows"),
                          [](const auto& scene) {
                              std::string name = scene.param;
                              std::ranges::replace(name, '-', '_');

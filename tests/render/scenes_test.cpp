@@ -45,9 +45,9 @@ TEST(Scenes, theGeneratorMakesTheCommittedBytes) {
 }
 
 TEST(Scenes, areSmallAndReadWithoutAWarning) {
-    for (const std::string name :
-         {"spheres", "row", "lights", "foliage", "indirect", "row-dgauss", "row-wide", "row-telephoto",
-          "row-fisheye", "spin", "crossing", "dolly", "butterflies", "shadows", "shadows-defocused"}) {
+    for (const std::string name : {"spheres", "row", "lights", "foliage", "indirect", "mirror", "row-dgauss",
+                                   "row-wide", "row-telephoto", "row-fisheye", "spin", "crossing", "dolly",
+                                   "butterflies", "shadows", "shadows-defocused"}) {
         const Scene scene = load(name);
         EXPECT_EQ(scene.film.xResolution, 480) << name;
         EXPECT_EQ(scene.film.yResolution, 270) << name;

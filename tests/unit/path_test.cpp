@@ -98,7 +98,7 @@ glm::vec3 naivePath(const BruteForce& geometry, const Shading& shading, Ray ray,
         glm::vec3 wo = -ray.direction;
         if (!geometry.intersect(ray, hit)) {
             for (std::size_t i = 0; i < shading.lights.infiniteCount(); ++i)
-                radiance += throughput * shading.lights.infinite(i).radiance(ray.direction);
+                radiance += throughput * shading.lights.infiniteRadiance(i, ray.origin, ray.direction);
             return radiance;
         }
         radiance += throughput * shading.lights.emitted(hit, wo);
@@ -163,7 +163,9 @@ Material withRoughness(Scene& textures, MaterialKind kind, float roughness) {
     Material m;
     m.kind = kind;
     m.reflectance = test::addConstant(textures, {0.9f, 0.6f, 0.4f});
+    m.transmittance = test::addConstant(textures, {0.1f, 0.3f, 0.5f});
     m.uRoughness = m.vRoughness = test::addConstant(textures, glm::vec3(roughness));
+    m.baseURoughness = m.baseVRoughness = test::addConstant(textures, glm::vec3(0.1f));
     m.thickness = test::addConstant(textures, glm::vec3(0.01f));
     return m;
 }
@@ -182,10 +184,14 @@ Estimate picture(int count, const Trace& trace) {
 }
 
 TEST(Path, equalsAPathTracerThatNeverSamplesLights) {
-    for (MaterialKind kind : {MaterialKind::diffuse, MaterialKind::coatedDiffuse, MaterialKind::conductor})
+    for (MaterialKind kind :
+         {MaterialKind::diffuse, MaterialKind::coatedDiffuse, MaterialKind::conductor,
+          MaterialKind::coatedConductor, MaterialKind::dielectric, MaterialKind::diffuseTransmission})
         for (float roughness : {0.f, 0.2f})
             for (int maxDepth : {1, 3}) {
-                if (kind == MaterialKind::diffuse && roughness > 0) continue;
+                if ((kind == MaterialKind::diffuse || kind == MaterialKind::diffuseTransmission) &&
+                    roughness > 0)
+                    continue;
                 Scene textures;
                 Material material = withRoughness(textures, kind, roughness);
                 Scene scene = room(material, maxDepth == 1 ? 0.3f : 0);
