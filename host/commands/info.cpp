@@ -64,12 +64,9 @@ std::string countsText(const LightField& field) {
 
 /// The names of the planes of values that a field has.
 std::vector<std::string_view> planeNames(const LightField& field) {
-    constexpr std::array<std::string_view, kValuePlanes.size()> kNames = {
-        "radiance",   "albedo",   "normal", "motion",  "illumination", "reflectance",
-        "reflection", "position", "light",  "blocker", "direct"};
     std::vector<std::string_view> names;
-    for (std::size_t i = 0; i < kNames.size(); ++i)
-        if (!(field.*kValuePlanes[i]).empty()) names.push_back(kNames[i]);
+    for (std::size_t i = 0; i < kValuePlanes.size(); ++i)
+        if (!(field.*kValuePlanes[i]).empty()) names.push_back(kValuePlaneNames[i]);
     return names;
 }
 

@@ -137,10 +137,12 @@ namespace {
 void checkPlanes(const LightField& field) {
     SampleSet expected;
     expected.resize(1, field.planes());
-    for (const auto plane : kValuePlanes)
+    for (std::size_t i = 0; i < kValuePlanes.size(); ++i) {
+        const auto plane = kValuePlanes[i];
         if ((field.*plane).size() != field.samples.size() * (expected.*plane).size())
-            throw Error(ErrorCode::usage, fmt::format("a plane of values has {} of {} samples",
-                                                      (field.*plane).size(), field.samples.size()));
+            throw Error(ErrorCode::usage, fmt::format("{} samples have {} values of {}", field.samples.size(),
+                                                      (field.*plane).size(), kValuePlaneNames[i]));
+    }
     if (field.planes().shadows && !field.hasShading())
         throw Error(ErrorCode::usage, "shadow rays without illumination");
 }

@@ -92,6 +92,10 @@ inline constexpr std::array<std::vector<glm::vec3> SampleSet::*, 11> kValuePlane
     &SampleSet::illumination, &SampleSet::reflectance, &SampleSet::reflection, &SampleSet::position,
     &SampleSet::light,        &SampleSet::blocker,     &SampleSet::direct};
 
+inline constexpr std::array<const char*, kValuePlanes.size()> kValuePlaneNames = {
+    "radiance",   "albedo",   "normal", "motion",  "illumination", "reflectance",
+    "reflection", "position", "light",  "blocker", "direct"};
+
 /// Room for samples and their values, of equal length; all but samples and radiance may be empty.
 struct SampleSpans {
     std::span<LightFieldSample> samples;

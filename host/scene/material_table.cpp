@@ -254,13 +254,15 @@ void MaterialTable::checkMixes(const Scene& scene) const {
     for (std::size_t i = 0; i < count; ++i) {
         const Material& m = scene.materials[i];
         const Position& where = entries_[i].where;
-        if (!ends[i])
-            throw badInput(where, "this material is a mix of itself, or nested more than {} deep",
-                           kMaxMixDepth);
-        if (m.kind != MaterialKind::mix) continue;
-        for (const int part : m.mixed)
-            if (scene.materials[std::size_t(part)].kind == MaterialKind::interface)
-                throw badInput(where, "an \"interface\" cannot be part of a mix");
+        issues_.attempt("", [&] {
+            if (!ends[i])
+                throw badInput(where, "this material is a mix of itself, or nested more than {} deep",
+                               kMaxMixDepth);
+            if (m.kind != MaterialKind::mix) return;
+            for (const int part : m.mixed)
+                if (scene.materials[std::size_t(part)].kind == MaterialKind::interface)
+                    throw badInput(where, "an \"interface\" cannot be part of a mix");
+        });
     }
 }
 

@@ -42,11 +42,13 @@ TEST_F(SampleCommand, recordsThePlanesThatItIsAskedFor) {
                 HasSubstr("planes           radiance, albedo, normal\n"));
     const std::string shading = sample("c.exr", {"--shading"});
     EXPECT_THAT(infoOf(shading),
-                HasSubstr("planes           radiance, normal, illumination, reflectance, reflection\n"));
+                HasSubstr("planes           radiance, normal, illumination, reflectance, reflection, "
+                          "position, light, blocker, direct\n"));
     EXPECT_THAT(infoOf(sample("d.exr", {"--shading", "--auxiliary"})),
-                HasSubstr("radiance, albedo, normal, illumination, reflectance, reflection\n"));
+                HasSubstr("radiance, albedo, normal, illumination, reflectance, reflection, "
+                          "position, light, blocker, direct\n"));
     const std::string json = infoOf(shading, {"--json"});
-    for (const char* part : {"\"illumination\",", "\"reflection\"\n", "\"auxiliary\": false"})
+    for (const char* part : {"\"illumination\",", "\"direct\"\n", "\"auxiliary\": false"})
         EXPECT_THAT(json, HasSubstr(part));
 }
 

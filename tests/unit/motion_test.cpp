@@ -62,7 +62,7 @@ TEST(Motion, ofZeroIsDropped) {
     EXPECT_EQ(sanitize(field).badMotion, 1u);
     EXPECT_FALSE(field.moves());
     field.motion.resize(2);
-    test::expectError(ErrorCode::usage, "0 normals, 2 motions", [&] { sanitize(field); });
+    test::expectError(ErrorCode::usage, "3 samples have 2 values of motion", [&] { sanitize(field); });
 }
 
 /// Whatever comes nearer than a sixteenth of its depth keeps its velocity, and everything else its motion.
