@@ -21,8 +21,6 @@ layout(set = 0, binding = 9) uniform textureBuffer motionTexels;
 layout(set = 0, binding = 10) uniform textureBuffer lensMap;
 layout(set = 0, binding = 11) uniform textureBuffer distortion;
 layout(set = 0, binding = 12) uniform textureBuffer cornerRays;
-layout(set = 0, binding = 13) uniform textureBuffer cornerLights;
-layout(constant_id = 2) const bool kStop = false; // whether the lens map is of the disc of a stop
 layout(push_constant) uniform Push {
     MapLookupPush push;
 };
@@ -48,9 +46,6 @@ vec4 lensMapAt(int texel) {
 }
 vec4 cornerRayAt(int i) {
     return texelFetch(cornerRays, i);
-}
-vec4 cornerLightAt(int i) {
-    return texelFetch(cornerLights, i);
 }
 #include "lib/lens_corners.glsl"
 #include "lib/lens_map.glsl"

@@ -5,29 +5,20 @@
 
 namespace slant {
 
-namespace {
-
-/// fieldConstants, and kStop of map_lookup.comp.
-std::array<std::uint32_t, 3> lookupConstants(const LensMap& lens, bool moves) {
-    return {lens.empty() ? 0u : 1u, moves ? 1u : 0u, lens.ofStop() ? 1u : 0u};
-}
-
-} // namespace
-
 MapPasses::MapPasses(Device& device, const OutputPattern& pattern, const LensMap& lens,
                      const LensDistortion& distortion, const DeviceBins& bins)
     : device_(device), lens_(lens), distortion_(distortion), points_(lensPoints(pattern)),
       map_(device, "layer_map", fieldConstants(!lens.empty(), bins.motion.moves())),
       reduce_(device, "map_reduce", fieldConstants(!lens.empty(), bins.motion.moves())),
       classify_(device, "list_classify", fieldConstants(!lens.empty(), bins.motion.moves())),
-      lookup_(device, "map_lookup", lookupConstants(lens, bins.motion.moves())),
+      lookup_(device, "map_lookup", fieldConstants(!lens.empty(), bins.motion.moves())),
       texels_(device, TexelFormat::rgba32ui, 0), motions_(device, TexelFormat::rgba32ui, 0),
       motionTexels_(motionBuffer(device, bins.motion.layout)),
       lensPoints_(device, TexelFormat::rgba32f, pattern.entries.size()),
       clusters_(device, TexelFormat::rgba32f, 0), lensMap_(lensBuffer(device, lens)),
       pinholeMap_(lensBuffer(device, distortion.pinhole())),
       distortionTexels_(device, TexelFormat::rgba32f, distortion.texels().size()),
-      cornerRays_(device, TexelFormat::rgba32f, 0), cornerLights_(device, TexelFormat::rgba32f, 0),
+      cornerRays_(device, TexelFormat::rgba32f, 0),
       sights_(device, TexelFormat::rgba32f, pattern.groups.size()), moves_(bins.motion.moves()) {
     lensPoints_.upload(points_);
     distortionTexels_.upload(distortion.texels());
@@ -105,7 +96,6 @@ void MapPasses::record(CommandList& commands, const ListPasses& listPasses, cons
                                                    std::size_t(outputs.groupCount) << outputs.groupBits));
         sights_ = upload(listPasses.lensTiles().sights);
         cornerRays_ = upload(corners.rays);
-        cornerLights_ = upload(corners.lights);
     }
     commands.dispatch(classify_,
                       {lists.start, lists.bricks, sights_, classes, clusters_, missed, lists.motions,
@@ -113,8 +103,7 @@ void MapPasses::record(CommandList& commands, const ListPasses& listPasses, cons
                       push, classify_.gridFor(push.count));
     commands.dispatch(lookup_,
                       {lists.start, clusters_, texels_, lensPoints_, pattern, classes, dense, missed,
-                       motions_, listPasses.motionTexels(), lensMap_, distortionTexels_, cornerRays_,
-                       cornerLights_},
+                       motions_, listPasses.motionTexels(), lensMap_, distortionTexels_, cornerRays_},
                       push,
                       {std::uint32_t(outputs.outputs.tileCount.x), std::uint32_t(outputs.outputs.tileCount.y),
                        outputs.groupCount});

@@ -39,8 +39,8 @@ private:
     Pass map_, reduce_, classify_, lookup_;
     Buffer texels_, motions_, motionTexels_, lensPoints_, clusters_;
     Buffer lensMap_, pinholeMap_, distortionTexels_;
-    Buffer cornerRays_, cornerLights_; ///< of a chunk, through a compound lens
-    Buffer sights_;                    ///< of all groups; through a compound lens, of the lists of a chunk
+    Buffer cornerRays_; ///< of a chunk, through a compound lens
+    Buffer sights_;     ///< of all groups; through a compound lens, of the lists of a chunk
     bool moves_;
 };
 

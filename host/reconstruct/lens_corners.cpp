@@ -17,10 +17,8 @@ struct PixelKernels {
 
 struct CornerKernels {
     const LensCorners& corners;
-    const bool kStop = !corners.lights.empty();
 
     const vec4& cornerRayAt(int i) const { return corners.rays[std::size_t(i)]; }
-    const vec4& cornerLightAt(int i) const { return corners.lights[std::size_t(i)]; }
 #include "lib/lens_corners.glsl"
 };
 
@@ -31,14 +29,12 @@ LensCorners lensCorners(const LensMap& lens, const OutputLayout& layout, std::sp
     const std::size_t plane = std::size_t(count.x) * std::size_t(count.y);
     LensCorners corners;
     corners.rays.resize(points.size() * plane);
-    corners.lights.resize(lens.ofStop() ? corners.rays.size() : 0);
     parallelFor(0, points.size(), 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first * plane; i < last * plane; ++i) {
             const ivec2 corner(int(i % plane) % count.x, int(i % plane) / count.x);
             const LensNode node =
                 lens.nodeAt(vec2(layout.regionOrigin + kTileSize * corner), vec2(points[i / plane]));
             corners.rays[i] = node.node;
-            if (lens.ofStop()) corners.lights[i] = node.light;
         }
     });
     return corners;

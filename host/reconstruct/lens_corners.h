@@ -12,8 +12,6 @@ namespace slant {
 struct LensCorners {
     /// [output][row][column] of corners: aberration, pixels of the film; place on the entrance pupil.
     std::vector<vec4> rays;
-    /// The same for the disc of a stop: irradiance, clearance, 0, 0; else empty.
-    std::vector<vec4> lights;
 };
 
 /// Of outputs that look through `points` of the unit disc.

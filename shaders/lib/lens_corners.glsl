@@ -1,8 +1,8 @@
 // Where outputs look through a compound lens, from what is known at the corners of their tile
 // (host/reconstruct/lens_corners.h): a tenth of what lib/lens_map.glsl takes.
 //
-// Needs, declared before the include: cornerRayAt(int) and cornerLightAt(int), which read the corners; and
-// kStop, whether they have lights. In C++ it is included in a struct that has these, after lib/output.glsl.
+// Needs, declared before the include: cornerRayAt(int), which reads the corners. In C++ it is included in a
+// struct that has it, after lib/output.glsl.
 #include "lib/output.glsl"
 
 KERNEL vec4 betweenCorners(vec4 a, vec4 b, vec4 c, vec4 d, vec2 part) {
@@ -20,9 +20,4 @@ KERNEL void lookFromCorners(IN(PixelSight) sight, int plane, vec2 fromMiddle, IN
     o.xy = sight.chief + vec2(m.x * way.x + m.y * way.y, m.y * way.x + m.z * way.y);
     o.uv = vec2(ray.z, ray.w);
     o.weight = sight.irradiance;
-    if (kStop) {
-        const vec4 light = betweenCorners(cornerLightAt(i), cornerLightAt(i + 1), cornerLightAt(below),
-                                          cornerLightAt(below + 1), sight.part);
-        o.weight = sight.irradiance > 0.0f && light.y >= 0.0f ? light.x : 0.0f;
-    }
 }
