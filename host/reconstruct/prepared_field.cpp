@@ -183,7 +183,7 @@ Image PreparedField::picture(const LensView& view, ValuePlane plane, Monitor& mo
         break;
     case DenseSource::bins:
         // Rims cut the disc of a stop sharply: what corners of tiles know of that is too coarse.
-        picture.fromBins(traits.usesLayerMap && !samples_.field().lensMap.ofStop());
+        picture.fromBins(traits.usesLayerMap && mapServes(samples_.field()));
         break;
     }
     engine_->addPassTimes(report);
