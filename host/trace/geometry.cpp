@@ -136,6 +136,14 @@ void fillPacket(std::span<const Ray> rays, RTCRay16& packet, int* valid) {
     }
 }
 
+void intersectPacket(RTCScene scene, std::span<const Ray> rays, RTCRayHit16& query) {
+    alignas(64) int valid[kPacket];
+    fillPacket(rays, query.ray, valid);
+    std::fill_n(query.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
+    std::fill_n(query.hit.instID[0], kPacket, RTC_INVALID_GEOMETRY_ID);
+    embree::intersect(scene, valid, query);
+}
+
 } // namespace
 
 Geometry::Geometry(const Scene& scene, Monitor& monitor) : impl_(std::make_unique<Impl>(scene, monitor)) {}
@@ -195,11 +203,7 @@ void Geometry::intersect(std::span<const Ray> rays, std::span<SurfaceHit> hits) 
     for (std::size_t first = 0; first < rays.size(); first += kPacket) {
         auto part = rays.subspan(first, std::min<std::size_t>(kPacket, rays.size() - first));
         RTCRayHit16 query;
-        alignas(64) int valid[kPacket];
-        fillPacket(part, query.ray, valid);
-        std::fill_n(query.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
-        std::fill_n(query.hit.instID[0], kPacket, RTC_INVALID_GEOMETRY_ID);
-        embree::intersect(impl_->world.still.scene.get(), valid, query);
+        intersectPacket(impl_->world.still.scene.get(), part, query);
         const RTCHit16& h = query.hit;
         for (std::size_t i = 0; i < part.size(); ++i) {
             SurfaceHit& hit = hits[first + i] = SurfaceHit();
@@ -240,11 +244,7 @@ void Geometry::distances(std::span<const Ray> rays, std::span<float> distances) 
     for (std::size_t first = 0; first < rays.size(); first += kPacket) {
         auto part = rays.subspan(first, std::min<std::size_t>(kPacket, rays.size() - first));
         RTCRayHit16 query;
-        alignas(64) int valid[kPacket];
-        fillPacket(part, query.ray, valid);
-        std::fill_n(query.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
-        std::fill_n(query.hit.instID[0], kPacket, RTC_INVALID_GEOMETRY_ID);
-        embree::intersect(impl_->world.still.scene.get(), valid, query);
+        intersectPacket(impl_->world.still.scene.get(), part, query);
         for (std::size_t i = 0; i < part.size(); ++i)
             distances[first + i] = query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID
                                        ? std::numeric_limits<float>::infinity()
