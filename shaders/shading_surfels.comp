@@ -12,10 +12,11 @@ layout(set = 0, binding = 2) uniform utextureBuffer samples;     // of each reco
 layout(set = 0, binding = 3) uniform textureBuffer surfaces;     // of each sample: normal, nearness
 layout(set = 0, binding = 4) uniform textureBuffer illumination; // of each sample
 layout(set = 0, binding = 5) uniform textureBuffer reflection;
-layout(set = 0, binding = 6, r32ui) uniform writeonly uimageBuffer surfelOfRecord;
-layout(set = 0, binding = 7, rgba32f) uniform writeonly imageBuffer geometry;
-layout(set = 0, binding = 8, rgba32f) uniform writeonly imageBuffer light; // by lightIndex
-layout(set = 0, binding = 9, rgba32f) uniform writeonly imageBuffer means; // of each surfel, part after part
+layout(set = 0, binding = 6) uniform textureBuffer reflectance; // of each sample, and its weight
+layout(set = 0, binding = 7, r32ui) uniform writeonly uimageBuffer surfelOfRecord;
+layout(set = 0, binding = 8, rgba32f) uniform writeonly imageBuffer geometry;
+layout(set = 0, binding = 9, rgba32f) uniform writeonly imageBuffer light;  // by lightIndex
+layout(set = 0, binding = 10, rgba32f) uniform writeonly imageBuffer means; // of each surfel, part after part
 layout(push_constant) uniform Push {
     ShadingPush push;
 };
@@ -31,6 +32,9 @@ vec4 surfaceAt(uint sample_) {
 }
 vec3 lightAt(uint sample_, int part) {
     return part == 0 ? texelFetch(illumination, int(sample_)).rgb : texelFetch(reflection, int(sample_)).rgb;
+}
+float weightAt(uint sample_) {
+    return texelFetch(reflectance, int(sample_)).a;
 }
 void keepSurfelOf(uint record, uint surfel) {
     imageStore(surfelOfRecord, int(record), uvec4(surfel));

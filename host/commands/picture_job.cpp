@@ -49,6 +49,11 @@ void addImageOptions(CLI::App& command, PictureOptions& options) {
         "forward");
 }
 
+void addErrorChannelsOption(CLI::App& command, PictureOptions& options) {
+    command.add_flag("--error-channels", options.errorChannels,
+                     "estimate the error of every pixel and write it as further channels of the EXR: error");
+}
+
 void addPictureOptions(CLI::App& command, PictureOptions& options) {
     addSceneOptions(command, options.input, options.reading);
     command.add_option("-o,--output", options.output, "picture to write (default: the film's filename)")

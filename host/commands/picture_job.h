@@ -20,7 +20,8 @@ struct PictureOptions {
     std::string png;    ///< empty: none
     float exposure = 0; ///< stops, of the PNG
     bool float32 = false;
-    bool auxiliary = false; ///< with further channels: render/auxiliary.h
+    bool auxiliary = false;     ///< with further channels: render/auxiliary.h
+    bool errorChannels = false; ///< with further channels: render/error_estimate.h
 };
 
 /// --lenient
@@ -29,6 +30,8 @@ void addLenientOption(CLI::App& command, ReadOptions& reading);
 void addSceneOptions(CLI::App& command, std::string& scene, ReadOptions& reading);
 /// --png, --exposure, --float, --auxiliary
 void addImageOptions(CLI::App& command, PictureOptions& options);
+/// --error-channels
+void addErrorChannelsOption(CLI::App& command, PictureOptions& options);
 /// SCENE, --lenient, -o, those of addImageOptions, and the common options except those of the reconstruction.
 void addPictureOptions(CLI::App& command, PictureOptions& options);
 

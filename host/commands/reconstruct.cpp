@@ -9,6 +9,7 @@
 #include "lightfield/refocus.h"
 #include "reconstruct/plan.h"
 #include "render/auxiliary.h"
+#include "render/error_estimate.h"
 #include "report/work_monitor.h"
 
 #include <memory>
@@ -115,7 +116,12 @@ private:
                                 missing));
         Image image = pictures.colours(view, monitor, report);
         if (options_.picture.auxiliary) pictures.addAuxiliary(image, view, monitor, report);
-        printAgreements(pictures.takeAgreements(), backend_);
+        std::vector<Agreement> agreements = pictures.takeAgreements();
+        if (options_.picture.errorChannels)
+            ErrorEstimate(backend_, file_.field, reconstruction_, view, options_.compareWithCpu, monitor,
+                          report, agreements)
+                .addChannels(image);
+        printAgreements(agreements, backend_);
         image.displayWindow = file_.details.film;
         warnOf(defects_, report.emptyPixels, monitor);
         return image;
@@ -171,6 +177,7 @@ void addReconstruct(CLI::App& program) {
     addImageOptions(*command, options->picture);
     addViewOptions(*command, options->view);
     addReconstructionOptions(*command, options->picture.common);
+    addErrorChannelsOption(*command, options->picture);
     addNumber<std::uint64_t>(*command, "--seed", options->seed, 0, std::numeric_limits<std::uint64_t>::max(),
                              "seed of the output pattern (default: the field's)");
     addCompareOption(*command, options->compareWithCpu);

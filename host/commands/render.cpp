@@ -7,12 +7,15 @@
 #include "commands/stats_file.h"
 
 #include <memory>
+#include <optional>
 
 namespace slant::commands {
 namespace {
 
 struct RenderCommand {
     PictureOptions picture;
+    double placedShare = 0;
+    std::optional<double> targetRelMse;
     bool compareWithCpu = false;
 };
 
@@ -31,14 +34,18 @@ void runRender(RenderCommand options) {
     rendering.sampling.samplesPerPixel = scene.pixelSamples;
     rendering.sampling.seed = common.seed;
     rendering.sampling.slopes = common.slopes;
+    rendering.placedShare = options.placedShare;
+    rendering.targetRelMse = options.targetRelMse;
     rendering.reconstruction = reconstructOptions(common, scene.filter, backend);
     rendering.auxiliary = options.picture.auxiliary;
+    rendering.errorChannels = options.picture.errorChannels;
     rendering.compareWithCpu = options.compareWithCpu;
     const Rendering result = render(scene, rendering, backend, monitor);
     printAgreements(result.agreements, backend);
     warnOf(result.traced.defects, result.report.emptyPixels, monitor);
     nlohmann::ordered_json details = {{"scene", options.picture.input}};
     addDetails(details, common, result.traced.field, backend, result.report);
+    if (result.estimatedRelMse) details["estimatedRelMse"] = *result.estimatedRelMse;
     if (result.traced.field.moves()) addMisses(details, result.traced.misses);
     writeDebugImage(options.picture, result.traced.field.frame, result.report);
     writeOutputs(options.picture, result.image, details, stagesOf(monitor.stages(), result.report),
@@ -54,6 +61,15 @@ void addRender(CLI::App& program) {
     addPictureOptions(*command, options->picture);
     addSlopesOption(*command, options->picture.common);
     addReconstructionOptions(*command, options->picture.common);
+    addErrorChannelsOption(*command, options->picture);
+    addNumber<double>(
+        *command, "--adaptive", options->placedShare, 0, 0.95,
+        "share of the samples that are traced after the others, where the estimated error of the "
+        "picture is largest (default 0)");
+    addNumber<double>(
+        *command, "--error", options->targetRelMse, 1e-9, 1e9,
+        "go on tracing samples, where the estimated error is largest, until the estimated relMSE of "
+        "the picture is as low as this");
     addCompareOption(*command, options->compareWithCpu);
     command->callback([options] { runRender(*options); });
 }

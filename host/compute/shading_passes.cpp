@@ -33,7 +33,8 @@ ShadingPasses::Inputs ShadingPasses::inputsOf(Device& device, const SceneSideSam
     };
     return {sampleBuffer(device, count, [&](std::size_t i) { return surfaceOf(field, i); }),
             light(ValuePlane::illumination, count),
-            sampleBuffer(device, count, [&](std::size_t i) { return vec4(field.reflectance[i], 0); }),
+            sampleBuffer(device, count,
+                         [&](std::size_t i) { return vec4(field.reflectance[i], shadingWeight(field, i)); }),
             light(ValuePlane::reflection, plan.reflects ? count : 0),
             sampleBuffer(device, rays, [&](std::size_t i) { return shadowRayOf(field, i); }),
             sampleBuffer(device, rays, [&](std::size_t i) { return vec4(field.light[i], 0); }),
@@ -84,7 +85,8 @@ void ShadingPasses::makeSurfels(CommandList& commands, const DeviceBins& bins, c
     commands.fill(surfels.ofRecords, kNoSurfel);
     commands.dispatch(surfels_,
                       {start, sorted.values, bins.samples, inputs_.surfaces, illumination(),
-                       inputs_.reflection, surfels.ofRecords, surfels.geometry, surfels.fine, surfels.means},
+                       inputs_.reflection, inputs_.reflectance, surfels.ofRecords, surfels.geometry,
+                       surfels.fine, surfels.means},
                       ShadingPush{layout.size, 0}, surfels_.gridFor(texels));
     commands.run();
 }

@@ -36,4 +36,15 @@ Image Image::withChannels(std::vector<std::string> names) const {
     return part;
 }
 
+Image Image::withMoreChannels(std::span<const std::string> names) const {
+    std::vector<std::string> all = channels;
+    all.insert(all.end(), names.begin(), names.end());
+    Image wider(dataWindow, std::move(all));
+    wider.displayWindow = displayWindow;
+    const std::size_t before = channels.size(), after = wider.channels.size();
+    for (std::size_t pixel = 0; pixel < dataWindow.area(); ++pixel)
+        std::copy_n(pixels.data() + before * pixel, before, wider.pixels.data() + after * pixel);
+    return wider;
+}
+
 } // namespace slant

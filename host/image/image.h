@@ -31,6 +31,8 @@ public:
 
     /// The channels of these names, all of which must exist.
     Image withChannels(std::vector<std::string> names) const;
+    /// The same with further channels, all zero, behind its own.
+    Image withMoreChannels(std::span<const std::string> names) const;
 
     Rect dataWindow;
     Rect displayWindow;

@@ -10,7 +10,6 @@ namespace slant {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kRelMseFloor = 0.01;
 
 ValuePlace placeOf(const Image& image, std::size_t index) {
     const std::size_t channels = image.channels.size(), width = std::size_t(image.width());

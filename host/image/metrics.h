@@ -7,6 +7,9 @@
 
 namespace slant {
 
+/// Keeps relMSE from dividing by what is black.
+inline constexpr double kRelMseFloor = 0.01;
+
 /// One value of an image: pixel in film coordinates, index into Image::channels.
 struct ValuePlace {
     int x = 0, y = 0, channel = 0;
@@ -16,7 +19,7 @@ struct ValuePlace {
 /// infinite, nonFinite counts them and every figure but those of nonFinite is NaN, so that no bound holds.
 struct Metrics {
     double mse = 0;    ///< mean of err^2
-    double relMse = 0; ///< mean of err^2 / (reference^2 + 0.01)
+    double relMse = 0; ///< mean of err^2 / (reference^2 + kRelMseFloor)
     double psnr = 0;   ///< dB for a peak of 1: -10 log10(mse); +infinity for equal images
     double mae = 0;    ///< mean of |err|
     double p99 = 0;    ///< 99th percentile of |err|: the smallest value that 99 % of them do not exceed

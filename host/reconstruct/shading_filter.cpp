@@ -42,6 +42,14 @@ vec4 shadowRayOf(const LightField& field, std::size_t sample) {
     return vec4(from, std::clamp(std::sqrt(part / whole), std::numeric_limits<float>::min(), 1.f));
 }
 
+float shadingWeight(const LightField& field, std::size_t sample) {
+    if (field.pixelStart.empty()) return 1;
+    const LightFieldSample& s = field.samples[sample];
+    const auto x = std::size_t(int(std::floor(s.x)) - field.bounds.x0),
+               y = std::size_t(int(std::floor(s.y)) - field.bounds.y0);
+    return 1 / float(field.samplesOf(y * std::size_t(field.bounds.width()) + x));
+}
+
 ShadingPlan planShading(const LightField& field, const GridLayout& grid, std::uint64_t bytes) {
     const Rect& region = field.frame;
     ShadingPlan plan{std::ranges::any_of(field.reflection, [](const vec3& v) { return v != vec3(0); }),
@@ -139,6 +147,7 @@ private:
         uint sampleAt(uint record) const { return filter.bins_.samples[record]; }
         const vec4& surfaceAt(uint sample) const { return filter.surfaces_[sample]; }
         vec3 lightAt(uint sample, int part) const { return filter.lightOf(sample, part); }
+        float weightAt(uint sample) const { return shadingWeight(filter.samples_.field(), sample); }
         void keepSurfelOf(uint record, uint surfel) { filter.surfelOfRecord_[record] = surfel; }
 #include "lib/surfels.glsl"
     };

@@ -23,6 +23,10 @@ namespace slant {
 /// shade.
 vec4 surfaceOf(const LightField& field, std::size_t sample);
 
+/// What a sample counts for in its surfel: one over the samples of its pixel, so that light does not seem
+/// darker where more samples look at the dark.
+float shadingWeight(const LightField& field, std::size_t sample);
+
 /// The shadow ray of a sample: its position (xyz), and which share of the way to the light is free (w):
 /// kUnblocked if all of it, 0 if there is no ray.
 vec4 shadowRayOf(const LightField& field, std::size_t sample);

@@ -1,7 +1,5 @@
 #include "render/auxiliary.h"
 
-#include <algorithm>
-
 namespace slant {
 namespace {
 
@@ -35,15 +33,11 @@ std::vector<AuxiliarySet> auxiliarySets(bool withGuides, bool withMotion) {
 }
 
 void addChannels(Image& image, const AuxiliarySet& set, const Image& means) {
-    std::vector<std::string> channels = image.channels;
-    channels.insert(channels.end(), set.channels.begin(), set.channels.end());
-    Image wider(image.dataWindow, std::move(channels));
-    wider.displayWindow = image.displayWindow;
+    Image wider = image.withMoreChannels(set.channels);
     const auto before = std::size_t(image.channelCount()), after = std::size_t(wider.channelCount());
     const int coverage = image.channel("A");
     for (std::size_t pixel = 0; pixel < image.dataWindow.area(); ++pixel) {
         const float* const old = image.pixels.data() + before * pixel;
-        std::copy_n(old, before, wider.pixels.data() + after * pixel);
         const float* const mean = means.pixels.data() + 3 * pixel;
         const glm::vec3 values = set.finish({mean[0], mean[1], mean[2]}, coverage < 0 ? 1 : old[coverage]);
         for (std::size_t c = before; c < after; ++c)

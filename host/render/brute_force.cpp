@@ -30,7 +30,7 @@ BruteForce bruteForce(const Scene& scene, const Tracer& tracer, std::uint64_t se
         batch.samplesPerPixel = std::min(kBatch, scene.pixelSamples - first);
         batch.resize(batch.bounds.area() * std::size_t(batch.samplesPerPixel),
                      {.albedo = auxiliary, .motion = withMotion});
-        tracer.trace(batch.bounds, first, batch.samplesPerPixel, scene.pixelSamples, seed, spansOf(batch),
+        tracer.trace(batch.bounds, {first, batch.samplesPerPixel}, scene.pixelSamples, seed, spansOf(batch),
                      monitor);
         result.defects.add(sanitize(batch));
         const auto add = [&](FilmBuffer& to, ValuePlane plane) {

@@ -6,6 +6,8 @@
 #include "trace/sample_motion.h"
 #include "trace/sample_options.h"
 
+#include <optional>
+
 namespace slant {
 
 class Camera;
@@ -32,9 +34,13 @@ TracedField traceField(const Tracer& tracer, const Scene& scene, const SampleOpt
                        Monitor& monitor);
 
 struct RenderOptions {
-    SampleOptions sampling;            ///< with guides if `auxiliary`
+    SampleOptions sampling; ///< with guides if `auxiliary`
+    double placedShare = 0; ///< of the samples, in [0, 1): where the error of the others is largest
+    /// More samples are traced, where the error is largest, until the estimated relMSE is as low as this.
+    std::optional<double> targetRelMse = {};
     ReconstructOptions reconstruction; ///< the filter is the scene's
     bool auxiliary = false;            ///< with the channels of render/auxiliary.h
+    bool errorChannels = false;        ///< with error.R, .G, .B (ErrorEstimate::addChannels)
     bool compareWithCpu = false;       ///< see FieldPictures
 };
 
@@ -44,10 +50,13 @@ struct Rendering {
     FieldMetadata metadata; ///< of the traced field
     ReconstructReport report;
     std::vector<Agreement> agreements;
+    std::optional<double> estimatedRelMse; ///< of the picture; where a target or error channels are asked for
 };
 
-/// Traces, reconstructs and filters the picture of a scene. Throws Error(resources) for a memory budget that
-/// is too small, before tracing; and whatever Tracer, traceLightField and FieldPictures throw.
+/// Traces, reconstructs and filters the picture of a scene. It warns where a target is not reached within the
+/// memory budget of the samples. Throws Error(resources) for a memory budget that is too small, before
+/// tracing; Error(usage) where samples cannot be placed (SamplePlacement); and whatever Tracer,
+/// traceLightField and FieldPictures throw.
 Rendering render(const Scene& scene, const RenderOptions& options, Backend& backend, Monitor& monitor);
 
 } // namespace slant

@@ -50,7 +50,7 @@ std::string contentKey(const Scene& scene, const Tracer& tracer) {
         const Rect row{film.crop.x0, y, film.crop.x1, y + 1};
         SampleSet set;
         set.resize(row.area(), {});
-        tracer.trace(row, 0, 1, 1, 0, spansOf(set), silent);
+        tracer.trace(row, {.count = 1}, 1, 0, spansOf(set), silent);
         for (std::size_t i = 0; i < set.samples.size(); ++i) {
             const LightFieldSample& s = set.samples[i];
             const glm::vec3& rgb = set.radiance[i];

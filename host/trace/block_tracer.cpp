@@ -2,6 +2,7 @@
 
 #include "trace/specular_chain.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace slant {
@@ -50,7 +51,23 @@ BlockTracer::BlockTracer(const TraceJob& job, int x0, int y0) : job_(job), x0_(x
         places_[lane] = job.pattern.pixel(x(i), y(i));
         lastX_[lane] = lastOfPixel(x(i));
         lastY_[lane] = lastOfPixel(y(i));
+        const Rect& pixels = job.pixels;
+        starts_[lane] = 0;
+        ends_[lane] = job.samples.first;
+        if (!pixels.contains(x(i), y(i))) continue;
+        const std::size_t pixel =
+            std::size_t(y(i) - pixels.y0) * std::size_t(pixels.width()) + std::size_t(x(i) - pixels.x0);
+        starts_[lane] = job.samples.startOf(pixel);
+        ends_[lane] += job.samples.countOf(pixel);
     }
+}
+
+std::uint64_t BlockTracer::trace() {
+    const int first = job_.samples.first, last = *std::ranges::max_element(ends_);
+    for (int sample = first; sample < last; ++sample) trace(sample);
+    std::uint64_t traced = 0;
+    for (const int end : ends_) traced += std::uint64_t(end - first);
+    return traced;
 }
 
 void BlockTracer::trace(int sample) {
@@ -58,7 +75,7 @@ void BlockTracer::trace(int sample) {
     job_.geometry.intersect(rays_, hits_);
     shade(sample);
     for (int lane = 0; lane < kLanes; ++lane)
-        if (job_.pixels.contains(x(lane), y(lane))) {
+        if (sample < ends_[std::size_t(lane)]) {
             finish(lane);
             store(lane, sample);
         }
@@ -78,7 +95,8 @@ void BlockTracer::generate(int sample) {
             s.t = point.t;
             weights_[lane] = seen.weight;
             // Where the lens lets nothing through, the film is black and in focus.
-            const float tMax = seen.weight > 0 ? std::numeric_limits<float>::infinity() : 0;
+            const bool isWanted = job_.samples.starts.empty() || sample < ends_[lane];
+            const float tMax = seen.weight > 0 && isWanted ? std::numeric_limits<float>::infinity() : 0;
             rays_[lane] = {seen.ray.origin, seen.ray.direction, tMax, point.t};
         }
     });
@@ -145,9 +163,7 @@ void BlockTracer::store(int i, int sample) {
     s.w = depth;
     s.slope = job_.camera.slopeModel()(depth);
     s.alpha = hit.hit() ? 1.f : 0.f;
-    std::size_t pixel = std::size_t(y(i) - job_.pixels.y0) * std::size_t(job_.pixels.width()) +
-                        std::size_t(x(i) - job_.pixels.x0);
-    std::size_t index = pixel * std::size_t(job_.count) + std::size_t(sample - job_.firstSample);
+    const std::size_t index = starts_[lane] + std::size_t(sample - job_.samples.first);
     job_.out.samples[index] = s;
     const PathState& path = paths_[lane];
     const Film& film = job_.scene.film;

@@ -5,6 +5,7 @@
 #include "trace/path.h"
 #include "trace/pattern.h"
 #include "trace/sample_motion.h"
+#include "trace/sample_options.h"
 
 #include <array>
 #include <span>
@@ -23,7 +24,7 @@ struct TraceJob {
     const Shading& shading;
     const Pattern& pattern;
     Rect pixels;
-    int firstSample, count;
+    PixelSamples samples;
     SampleSpans out;
     const SampleMotion& motion;
     bool findsImages; ///< of mirrors and glass
@@ -35,8 +36,8 @@ public:
     /// The block of pixels from (x0, y0), multiples of kBlockSize.
     BlockTracer(const TraceJob& job, int x0, int y0);
 
-    /// One sample of each pixel.
-    void trace(int sample);
+    /// All samples of its pixels; returns how many.
+    std::uint64_t trace();
     /// By how much straight motions missed, if the job asks for motion.
     const MotionMisses& misses() const { return misses_; }
 
@@ -45,6 +46,8 @@ private:
 
     int x(int lane) const { return x0_ + lane % kBlockSize; }
     int y(int lane) const { return y0_ + lane / kBlockSize; }
+    /// One sample of each pixel.
+    void trace(int sample);
     void generate(int sample);
     void shade(int sample);
     void traceShadows(std::span<const Ray> rays, std::span<std::uint8_t> occluded);
@@ -56,6 +59,8 @@ private:
     const TraceJob& job_;
     int x0_, y0_;
     std::array<PatternPixel, kLanes> places_;
+    std::array<std::size_t, kLanes> starts_;  ///< where the samples of each pixel are written
+    std::array<int, kLanes> ends_;            ///< one past its last sample; none are wanted of pixels outside
     std::array<float, kLanes> lastX_, lastY_; ///< largest raster positions inside the pixels
     std::array<LightFieldSample, kLanes> samples_;
     std::array<SurfaceGuides, kLanes> guides_;

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "lib/trajectory.glsl"
+#include "lightfield/parts.h"
 #include "scene/filter_reach.h"
 
 #include <algorithm>
@@ -10,46 +11,58 @@
 #include <cmath>
 #include <mutex>
 #include <new>
+#include <numeric>
 #include <stdexcept>
 
 namespace slant {
 namespace {
 
 constexpr double kMebibyte = 1 << 20;
+/// Patterns of further samples have seeds that nobody chooses.
+constexpr int kPassShift = 48;
+/// Of a field, while samples are added to it.
+constexpr std::uint64_t kCopies = 2;
 /// A miss of straight motions is worth a warning from this on, where more than this part of samples has it.
 constexpr float kSeenMissPx = 1;
 constexpr double kSeenShare = 0.001;
 
-std::uint64_t fieldBytes(Rect bounds, const SampleOptions& options) {
+std::uint64_t bytesOf(std::uint64_t samples, SamplePlanes planes) {
     SampleSet one;
-    one.resize(1, options.planes);
+    one.resize(1, planes);
     std::uint64_t perSample = sizeof(LightFieldSample);
     for (const auto plane : kValuePlanes) perSample += sizeof(glm::vec3) * (one.*plane).size();
-    return std::uint64_t(bounds.area()) * std::uint64_t(options.samplesPerPixel) * perSample;
+    return samples * perSample;
+}
+
+std::uint64_t fieldBytes(Rect bounds, const SampleOptions& options) {
+    return bytesOf(std::uint64_t(bounds.area()) * std::uint64_t(options.samplesPerPixel), options.planes);
 }
 
 /// Throws Error(resources) if `bytes` are more than the budget.
-void requireBudget(std::uint64_t bytes, Rect bounds, const SampleOptions& options) {
+void requireBudget(std::uint64_t bytes, Rect bounds, double samplesPerPixel, const SampleOptions& options) {
     if (bytes > options.memoryBytes)
         throw Error(
             ErrorCode::resources,
             fmt::format(
-                "{} x {} pixels with {} samples each need {:.0f} MiB of memory, the budget is {:.0f} MiB",
-                bounds.width(), bounds.height(), options.samplesPerPixel, double(bytes) / kMebibyte,
+                "{} x {} pixels with {:.4g} samples each need {:.0f} MiB of memory, the budget is {:.0f} MiB",
+                bounds.width(), bounds.height(), samplesPerPixel, double(bytes) / kMebibyte,
                 double(options.memoryBytes) / kMebibyte));
 }
 
-/// Samples of one rectangle.
-SampleSet samplesOf(Rect pixels, const SampleOptions& options) {
-    const std::size_t count = pixels.area() * std::size_t(options.samplesPerPixel);
+/// Room for so many samples.
+SampleSet roomFor(std::size_t count, SamplePlanes planes) {
     SampleSet set;
     try {
-        set.resize(count, options.planes);
+        set.resize(count, planes);
     } catch (const std::exception&) { // bad_alloc or length_error
         throw Error(ErrorCode::resources, fmt::format("no memory for {} samples ({:.0f} MiB)", count,
-                                                      double(fieldBytes(pixels, options)) / kMebibyte));
+                                                      double(bytesOf(count, planes)) / kMebibyte));
     }
     return set;
+}
+
+SampleSet samplesOf(Rect pixels, const SampleOptions& options) {
+    return roomFor(pixels.area() * std::size_t(options.samplesPerPixel), options.planes);
 }
 
 void copyRows(const SampleSet& from, Rect pixels, SampleSet& to, Rect bounds, int samplesPerPixel) {
@@ -59,10 +72,7 @@ void copyRows(const SampleSet& from, Rect pixels, SampleSet& to, Rect bounds, in
         const std::size_t target =
             (std::size_t(y - bounds.y0) * std::size_t(bounds.width()) + std::size_t(pixels.x0 - bounds.x0)) *
             std::size_t(samplesPerPixel);
-        std::copy_n(from.samples.data() + source, row, to.samples.data() + target);
-        for (const auto plane : kValuePlanes)
-            if (!(from.*plane).empty())
-                std::copy_n((from.*plane).data() + source, row, (to.*plane).data() + target);
+        copySamples(from, source, to, target, row);
     }
 }
 
@@ -209,9 +219,9 @@ LightField traceLightField(const Tracer& tracer, const Scene& scene, const Sampl
     const SlopeModel slopeModel = tracer.camera().slopeModel();
     const bool moving = options.planes.motion;
     auto trace = [&](Rect pixels, SampleSet& into, MotionMisses* missed) {
-        tracer.trace(pixels, 0, spp, spp, options.seed, spansOf(into), monitor, missed);
+        tracer.trace(pixels, {0, spp}, spp, options.seed, spansOf(into), monitor, missed);
     };
-    requireBudget(fieldBytes(frame, options), frame, options);
+    requireBudget(fieldBytes(frame, options), frame, spp, options);
     SampleSet inFrame = samplesOf(frame, options);
     MotionMisses missed;
     monitor.beginStage("trace", std::uint64_t(frame.area()) * std::uint64_t(spp), "samples");
@@ -228,7 +238,7 @@ LightField traceLightField(const Tracer& tracer, const Scene& scene, const Sampl
             fmt::format("{} reaches {} pixels beyond the frame; the overscan is limited to {} pixels, so "
                         "borders may lack what enters from farther out",
                         moving ? "blur or motion" : "blur", wanted, limit));
-    requireBudget(fieldBytes(bounds, options) + fieldBytes(frame, options), bounds, options);
+    requireBudget(fieldBytes(bounds, options) + fieldBytes(frame, options), bounds, spp, options);
     LightField field{samplesOf(bounds, options), bounds,  frame, spp, slopeModel,
                      tracer.camera().aperture(), lensMap, {}};
     copyRows(inFrame, frame, field, bounds, spp);
@@ -244,6 +254,32 @@ LightField traceLightField(const Tracer& tracer, const Scene& scene, const Sampl
     }
     monitor.endStage();
     return field;
+}
+
+std::uint64_t roomForMore(const LightField& field, const SampleOptions& options) {
+    const std::uint64_t most = options.memoryBytes / (kCopies * bytesOf(1, field.planes()));
+    return most - std::min<std::uint64_t>(most, field.samples.size());
+}
+
+FieldDefects traceMore(const Tracer& tracer, const SampleOptions& options,
+                       std::span<const std::uint32_t> counts, int pass, LightField& field, Monitor& monitor) {
+    SamplePlanes planes = options.planes;
+    planes.motion = tracer.moves();
+    LightField more{{}, field.frame, field.frame, 0, field.slopeModel, field.aperture, field.lensMap, {}};
+    setSampleCounts(more, counts);
+    std::vector<std::uint32_t> starts(counts.size() + 1, 0);
+    std::partial_sum(counts.begin(), counts.end(), starts.begin() + 1);
+    const std::uint64_t samples = field.samples.size() + starts.back();
+    requireBudget(kCopies * bytesOf(samples, field.planes()), field.bounds,
+                  double(samples) / double(field.bounds.area()), options);
+    static_cast<SampleSet&>(more) = roomFor(starts.back(), planes);
+    monitor.beginStage("trace more", starts.back(), "samples");
+    tracer.trace(field.frame, {.starts = starts}, int(*std::ranges::max_element(counts)),
+                 options.seed + (std::uint64_t(pass) << kPassShift), spansOf(more), monitor);
+    monitor.endStage();
+    const FieldDefects defects = sanitize(more);
+    addSamples(field, more);
+    return defects;
 }
 
 } // namespace slant

@@ -13,6 +13,16 @@ namespace slant {
 LightField traceLightField(const Tracer& tracer, const Scene& scene, const SampleOptions& options,
                            Monitor& monitor, MotionMisses* misses = nullptr);
 
+/// How many more samples the budget has room for.
+std::uint64_t roomForMore(const LightField& field, const SampleOptions& options);
+
+/// Traces counts[k] more samples of each pixel k of field.frame, row by row, at least one in all, and puts
+/// them behind those that are there, sanitized; returns what was mended. They are the first of a pattern of
+/// their own, which options.seed and `pass` >= 1 name. Throws Error(resources) when the samples do not fit
+/// the budget or memory, before tracing them.
+FieldDefects traceMore(const Tracer& tracer, const SampleOptions& options,
+                       std::span<const std::uint32_t> counts, int pass, LightField& field, Monitor& monitor);
+
 /// The bounds for a frame whose samples are given (any order), with their motion or without, seen through a
 /// pixel filter that reaches `filterReach` pixels to each side; sides of the overscan are at most `limitPx`.
 /// Sets `wantedPx` to the widest side that would be needed.

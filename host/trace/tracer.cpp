@@ -58,24 +58,44 @@ std::pair<double, double> Tracer::depthRange() const {
     return {double(depths[outliers]), double(depths[depths.size() - 1 - outliers])};
 }
 
-void Tracer::trace(Rect pixels, int firstSample, int count, int samplesPerPixel, std::uint64_t seed,
-                   const SampleSpans& out, Monitor& monitor, MotionMisses* misses) const {
-    Pattern pattern(samplesPerPixel, seed);
-    const std::size_t samples = pixels.area() * std::size_t(std::max(count, 0));
+namespace {
+
+/// Throws Error(usage) unless they are of a pattern and `out` has room for them.
+void checkRoom(Rect pixels, const PixelSamples& samples, int samplesPerPixel, const SampleSpans& out) {
+    const bool startsFit = samples.starts.empty() || samples.starts.size() == pixels.area() + 1;
+    const std::size_t count = startsFit ? samples.startOf(pixels.area()) : 0;
     const auto fits = [&](std::span<const glm::vec3> plane, bool optional) {
-        return plane.size() == samples || (optional && plane.empty());
+        return plane.size() == count || (optional && plane.empty());
     };
-    if (firstSample < 0 || count < 0 || count > samplesPerPixel - firstSample ||
-        out.samples.size() != samples || !fits(out.radiance, false) || !fits(out.albedo, true) ||
+    int most = samples.count;
+    for (std::size_t i = 1; i < samples.starts.size(); ++i) most = std::max(most, samples.countOf(i - 1));
+    if (!startsFit || samples.first < 0 || samples.count < 0 || most > samplesPerPixel - samples.first ||
+        out.samples.size() != count || !fits(out.radiance, false) || !fits(out.albedo, true) ||
         !fits(out.normal, out.albedo.empty()) || !fits(out.motion, true) || !fits(out.illumination, true) ||
         !fits(out.reflectance, out.illumination.empty()) || !fits(out.reflection, out.illumination.empty()) ||
         !fits(out.position, true) || !fits(out.light, out.position.empty()) ||
         !fits(out.blocker, out.position.empty()) || !fits(out.direct, out.position.empty()))
         throw Error(ErrorCode::usage, "the buffers do not fit the samples to trace");
-    if (samples == 0) return;
-    TraceJob job{scene_,  camera_, geometry_,    shading_,
-                 pattern, pixels,  firstSample,  count,
-                 out,     motion_, findsImages_, kFarAway * diagonalOf(geometry_.bounds())};
+}
+
+} // namespace
+
+void Tracer::trace(Rect pixels, const PixelSamples& samples, int samplesPerPixel, std::uint64_t seed,
+                   const SampleSpans& out, Monitor& monitor, MotionMisses* misses) const {
+    const Pattern pattern(samplesPerPixel, seed);
+    checkRoom(pixels, samples, samplesPerPixel, out);
+    if (out.samples.empty()) return;
+    TraceJob job{scene_,
+                 camera_,
+                 geometry_,
+                 shading_,
+                 pattern,
+                 pixels,
+                 samples,
+                 out,
+                 motion_,
+                 findsImages_,
+                 kFarAway * diagonalOf(geometry_.bounds())};
     std::mutex mutex;
     const int column0 = floorDivide(pixels.x0, kBlockSize),
               column1 = floorDivide(pixels.x1 - 1, kBlockSize) + 1;
@@ -86,13 +106,12 @@ void Tracer::trace(Rect pixels, int firstSample, int count, int samplesPerPixel,
             const int x = (column0 + int(i % columns)) * kBlockSize,
                       y = (row0 + int(i / columns)) * kBlockSize;
             BlockTracer block(job, x, y);
-            for (int sample = firstSample; sample < firstSample + count; ++sample) block.trace(sample);
+            const std::uint64_t traced = block.trace();
             if (misses) {
                 const std::lock_guard lock(mutex);
                 misses->add(block.misses());
             }
-            Rect covered = Rect{x, y, x + kBlockSize, y + kBlockSize}.intersect(pixels);
-            monitor.advance(covered.area() * std::uint64_t(count));
+            monitor.advance(traced);
         }
     });
 }

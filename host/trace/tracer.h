@@ -21,13 +21,12 @@ public:
     /// Throws Error(badInput) for a scene that cannot be traced, Error(resources) when memory runs out.
     Tracer(const Scene& scene, Monitor& monitor, SlopeSource slopes = SlopeSource::optics);
 
-    /// Writes samples [firstSample, firstSample + count) of each pixel of `pixels`, a pattern of
-    /// samplesPerPixel, in the order of LightField: row, column, sample. Any pixels are allowed, on the film
-    /// or beside it. A sample depends on its pixel, its index, samplesPerPixel and the seed alone. Calls
-    /// monitor.advance with samples. `out` has room for pixels.area() * count of them; `misses`, if not null,
-    /// receives what straight motions miss, if `out` has room for motion. Throws Error(usage) for sizes that
-    /// do not fit, and what the monitor throws.
-    void trace(Rect pixels, int firstSample, int count, int samplesPerPixel, std::uint64_t seed,
+    /// Writes samples of each pixel of `pixels`, of a pattern of samplesPerPixel, in the order of LightField:
+    /// row, column, sample. Any pixels are allowed, on the film or beside it. A sample depends on its pixel,
+    /// its index, samplesPerPixel and the seed alone. Calls monitor.advance with samples. `out` has room for
+    /// all of them; `misses`, if not null, receives what straight motions miss, if `out` has room for motion.
+    /// Throws Error(usage) for sizes that do not fit, and what the monitor throws.
+    void trace(Rect pixels, const PixelSamples& samples, int samplesPerPixel, std::uint64_t seed,
                const SampleSpans& out, Monitor& monitor, MotionMisses* misses = nullptr) const;
 
     /// Whether anything moves while the shutter is open: if not, all motion is 0.

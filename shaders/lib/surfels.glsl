@@ -2,8 +2,9 @@
 //
 // Needs, declared before the include: kReflects; recordAt(uint), the records in the order of their texels;
 // sampleAt(uint), the sample of a record; surfaceAt(uint), normal and nearness of a sample, nearness 0 where
-// there is nothing to shade; lightAt(uint, int), part of its radiance; and keepSurfelOf(uint, uint), which
-// stores the surfel of a record. In C++ it is included in a struct that has these, after lib/shading.glsl.
+// there is nothing to shade; lightAt(uint, int), part of its radiance; weightAt(uint), what it counts for;
+// and keepSurfelOf(uint, uint), which stores the surfel of a record. In C++ it is included in a struct that
+// has these, after lib/shading.glsl.
 #include "lib/shading.glsl"
 
 struct Surfels {
@@ -59,9 +60,10 @@ KERNEL Surfels surfelsOf(uint begin, uint end, uint firstSurfel) {
         const int layer = fromFirst <= fromSecond ? 0 : 1;
         found.geometry[layer] += surface;
         found.count[layer] += 1.0f;
+        const float weight = weightAt(sample_);
         for (int part = 0; part < (kReflects ? 2 : 1); ++part)
             found.light[lightIndex(layer, part, int(sample_ & 1u), true)] +=
-                vec4(lightAt(sample_, part), 1.0f);
+                weight * vec4(lightAt(sample_, part), 1.0f);
         keepSurfelOf(record, firstSurfel + uint(layer));
     }
     return found;

@@ -96,7 +96,7 @@ void traceFrame(benchmark::State& state, const Scene& scene) {
     const int spp = int(state.range(0));
     SampleSet set;
     set.resize(scene.film.crop.area() * std::size_t(spp), {});
-    for (auto _ : state) tracer.trace(scene.film.crop, 0, spp, spp, 1, spansOf(set), monitor);
+    for (auto _ : state) tracer.trace(scene.film.crop, {0, spp}, spp, 1, spansOf(set), monitor);
     state.SetItemsProcessed(state.iterations() * std::int64_t(set.samples.size()));
 }
 

@@ -70,10 +70,17 @@ TEST_F(RenderErrors, wrongOptionsGiveStatusTwoBeforeTheSceneIsRead) {
         EXPECT_THAT(renderFails(2, none, option).err, HasSubstr(option[0] + " is for --method window"));
     renderFails(2, none, {"--method", "window", "--window-range", "-1"});
     renderFails(2, none, {"--method", "window", "--window-alpha", "nan"});
+    for (const char* share : {"1", "-0.1", "x"})
+        EXPECT_THAT(renderFails(2, none, {"--adaptive", share}).err, HasSubstr("number from 0 to 0.95"));
+    renderFails(2, none, {"--error", "0"});
     renderFails(2, none, {"--debug-image", "tiles"});
     EXPECT_THAT(renderFails(2, none, {"--debug-image", "layer-map", "--method", "box"}).err,
                 HasSubstr("for --method auto"));
     EXPECT_THAT(renderFails(2, none, {"--method", "ful"}).err, HasSubstr("did you mean 'full'?"));
+    EXPECT_THAT(renderFails(2, SLANT_SOURCE_DIR "/scenes/row-dgauss.pbrt",
+                            {"--device", "cpu", "--adaptive", "0.5", "-o", output_})
+                    .err,
+                HasSubstr("through a compound lens"));
     EXPECT_THAT(renderFails(2, kSpheres, {"--device", "cpu", "--crop", "480,500,0,10"}).err,
                 HasSubstr("480x270"));
 }

@@ -84,6 +84,17 @@ TEST(ShadingStability, softShadowsOfAnyWidthComeOutOfShadowRays) {
             }
 }
 
+/// Many samples look at what is dark, and few at what is bright beside it: it is as bright as before.
+TEST(ShadingStability, numbersOfSamplesDoNotWeighLight) {
+    const std::vector<synthetic::Layer> layers = {
+        {0, [](vec2) { return true; }, [](vec2) { return vec3(0.5f); }}};
+    const auto isDark = [](int x) { return x / 3 % 2 == 0; };
+    LightField field = synthetic::sample(
+        layers, kFrame, 4, [&](int x, int) { return isDark(x + 300) ? 16 : 2; }, 5);
+    test::lightUp(field, {.light = [&](vec2 p) { return isDark(int(std::floor(p.x)) + 300) ? 0.9f : 1.1f; }});
+    EXPECT_NEAR(compare(reconstruct(field), reconstruct(field, Method::box)).drift, 0, 0.002);
+}
+
 TEST(ShadingStability, pictureDoesNotDependOnTheOneBefore) {
     const LightField field = lit(4, {});
     ReconstructOptions options;

@@ -238,7 +238,7 @@ TEST(CompoundLens, tracesCleanLightFields) {
         // Without the sphere there is radiance 1 all around.
         SampleSet corner;
         corner.resize(64, {});
-        tracer.trace({2, 2, 3, 3}, 0, 64, 64, 0, spansOf(corner), monitor);
+        tracer.trace({2, 2, 3, 3}, {0, 64}, 64, 0, spansOf(corner), monitor);
         double sum = 0;
         for (const glm::vec3& rgb : corner.radiance) sum += double(rgb.g);
         EXPECT_NEAR(sum / 64 / meanWeight(cameraOf(c), {2.5f, 2.5f}).first, 1, 0.02) << c.lens;

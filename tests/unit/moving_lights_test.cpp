@@ -50,7 +50,7 @@ double meanOf(const Scene& scene, int spp, std::uint64_t seed) {
     const Tracer tracer(scene, monitor);
     SampleSet set;
     set.resize(scene.film.crop.area() * std::size_t(spp), {});
-    tracer.trace(scene.film.crop, 0, spp, spp, seed, spansOf(set), monitor);
+    tracer.trace(scene.film.crop, {0, spp}, spp, seed, spansOf(set), monitor);
     double sum = 0;
     for (const glm::vec3& rgb : set.radiance) sum += double(rgb.g);
     return sum / double(set.radiance.size());
@@ -102,7 +102,7 @@ TEST(MovingLights, areSampledWhereTheyAre) {
     SampleSet set;
     const Rect floor{4, 9, 12, 12};
     set.resize(floor.area() * 16, {});
-    tracer.trace(floor, 0, 16, 16, 3, spansOf(set), monitor);
+    tracer.trace(floor, {0, 16}, 16, 3, spansOf(set), monitor);
     for (const glm::vec3& rgb : set.radiance) EXPECT_GT(rgb.g, 0);
 }
 

@@ -71,7 +71,7 @@ SampleSet traceAll(const Tracer& tracer, Rect pixels, int spp = 4) {
     SampleSet set;
     set.resize(pixels.area() * std::size_t(spp), {.motion = true});
     SilentMonitor monitor;
-    tracer.trace(pixels, 0, spp, spp, 5, spansOf(set), monitor);
+    tracer.trace(pixels, {0, spp}, spp, 5, spansOf(set), monitor);
     return set;
 }
 

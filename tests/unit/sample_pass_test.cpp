@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "scene/read_scene.h"
+#include "trace/pattern.h"
 #include "unit/trace_scenes.h"
 
 #include <atomic>
@@ -52,7 +53,7 @@ SampleSet traceSet(const Tracer& tracer, Rect pixels, int first, int count, int 
     SampleSet set;
     set.resize(pixels.area() * std::size_t(count), planes);
     SilentMonitor monitor;
-    tracer.trace(pixels, first, count, spp, 11, spansOf(set), monitor);
+    tracer.trace(pixels, {first, count}, spp, 11, spansOf(set), monitor);
     return set;
 }
 
@@ -116,6 +117,27 @@ TEST(Tracer, aSampleDependsOnItsPixelAndIndexAlone) {
     EXPECT_TRUE(sameBits(all, trace(tracer, whole, 0, 6, 6)));
 }
 
+TEST(Tracer, pixelsMayHaveTheirOwnNumbersOfSamples) {
+    const Scene scene = ballScene(37, 23);
+    SilentMonitor monitor;
+    const Tracer tracer(scene, monitor);
+    const Rect pixels{-5, -3, 40, 26};
+    const std::vector<LightFieldSample> all = trace(tracer, pixels, 0, 6, 6);
+    std::vector<std::uint32_t> starts = {0};
+    for (std::size_t i = 0; i < pixels.area(); ++i)
+        starts.push_back(starts.back() + hashWords(7, std::uint32_t(i)) % 7);
+    SampleSet some;
+    some.resize(starts.back(), {});
+    RecordingMonitor progress;
+    tracer.trace(pixels, {.starts = starts}, 6, 11, spansOf(some), progress);
+    EXPECT_EQ(progress.items, starts.back());
+    for (std::size_t pixel = 0; pixel < pixels.area(); ++pixel)
+        for (std::uint32_t i = starts[pixel]; i < starts[pixel + 1]; ++i)
+            EXPECT_EQ(
+                std::memcmp(&all[6 * pixel + i - starts[pixel]], &some.samples[i], sizeof(LightFieldSample)),
+                0);
+}
+
 TEST(Tracer, aConvexBodyUnderAConstantSkyShowsItsReflectance) {
     Scene scene = emptyScene(16, 16);
     scene.shapes.push_back(sphereShape(50, glm::translate(glm::dmat4(1), glm::dvec3(0, 0, 60))));
@@ -166,14 +188,21 @@ TEST(Tracer, refusesBuffersThatDoNotFit) {
     const SampleSpans all = spansOf(set);
     std::vector<glm::vec3> three(3);
     Rect pixels{0, 0, 8, 8};
-    EXPECT_THROW(tracer.trace(pixels, 0, 3, 4, 0, all, monitor), Error);
-    EXPECT_THROW(tracer.trace(pixels, 1, 4, 4, 0, all, monitor), Error);
-    EXPECT_THROW(tracer.trace(pixels, 0, 4, 4, 0, {all.samples, {}, {}, {}}, monitor), Error);
-    EXPECT_THROW(tracer.trace(pixels, 0, 4, 4, 0, {all.samples, all.radiance, three, three}, monitor), Error);
-    EXPECT_THROW(tracer.trace(pixels, 0, 4, 4, 0, {all.samples, all.radiance, all.radiance, {}}, monitor),
+    EXPECT_THROW(tracer.trace(pixels, {0, 3}, 4, 0, all, monitor), Error);
+    EXPECT_THROW(tracer.trace(pixels, {1, 4}, 4, 0, all, monitor), Error);
+    EXPECT_THROW(tracer.trace(pixels, {0, 4}, 4, 0, {all.samples, {}, {}, {}}, monitor), Error);
+    EXPECT_THROW(tracer.trace(pixels, {0, 4}, 4, 0, {all.samples, all.radiance, three, three}, monitor),
                  Error);
-    EXPECT_NO_THROW(tracer.trace(pixels, 0, 4, 4, 0, all, monitor));
-    EXPECT_NO_THROW(tracer.trace({4, 4, 4, 4}, 0, 4, 4, 0, {}, monitor));
+    EXPECT_THROW(tracer.trace(pixels, {0, 4}, 4, 0, {all.samples, all.radiance, all.radiance, {}}, monitor),
+                 Error);
+    EXPECT_NO_THROW(tracer.trace(pixels, {0, 4}, 4, 0, all, monitor));
+    std::vector<std::uint32_t> starts(65);
+    for (std::uint32_t i = 0; i < 65; ++i) starts[i] = 4 * i;
+    EXPECT_NO_THROW(tracer.trace(pixels, {.starts = starts}, 4, 0, all, monitor));
+    EXPECT_THROW(tracer.trace(pixels, {.starts = std::span(starts).first(2)}, 4, 0, all, monitor), Error);
+    starts[1] = 5; // more than the pattern has
+    EXPECT_THROW(tracer.trace(pixels, {.starts = starts}, 4, 0, all, monitor), Error);
+    EXPECT_NO_THROW(tracer.trace({4, 4, 4, 4}, {0, 4}, 4, 0, {}, monitor));
 }
 
 TEST(SamplePass, partsOfTheRadianceAddUp) {
@@ -259,7 +288,7 @@ TEST(SamplePass, overscanReachesAsFarAsTheBlur) {
     EXPECT_TRUE(sameBits(field.samples, [&] {
         SampleSet set;
         set.resize(field.samples.size(), {});
-        tracer.trace(field.bounds, 0, 4, 4, options.seed, spansOf(set), monitor);
+        tracer.trace(field.bounds, {0, 4}, 4, options.seed, spansOf(set), monitor);
         return set.samples;
     }()));
 }

@@ -24,7 +24,7 @@ SampleSet samplesOf(const std::string& world, double fov = 40, SlopeSource slope
     const Tracer tracer(scene, monitor, slopes);
     SampleSet set;
     set.resize(24 * 24 * 4, {});
-    tracer.trace({0, 0, 24, 24}, 0, 4, 4, 1, spansOf(set), monitor);
+    tracer.trace({0, 0, 24, 24}, {0, 4}, 4, 1, spansOf(set), monitor);
     return set;
 }
 
