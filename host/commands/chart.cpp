@@ -221,6 +221,10 @@ void addChart(CLI::App& program) {
     addList(*command, "--devices", sweep.devices, "A,B,...",
             "any of auto, cpu, parts of Vulkan device names (default auto)",
             [](const std::string& text) { return wordsOf("--devices", text); });
+    addNumber<double>(
+        *command, "--adaptive", sweep.placedShare, 0, 0.95,
+        "measure each method also with this share of its samples traced where its picture has most "
+        "error (default 0)");
     addNumber<int>(*command, "--repeat", sweep.repeat, 1, 1000, "timed runs per point (default 3)");
     addNumber<int>(*command, "--truth-spp", sweep.truthSpp, 64, kMaxSamplesPerPixel,
                    "samples per pixel of the ground truth (default 4096)");

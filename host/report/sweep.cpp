@@ -8,8 +8,8 @@
 #include "image/metrics.h"
 #include "image/png.h"
 #include "reconstruct/prepared_field.h"
+#include "render/adaptive.h"
 #include "render/brute_force.h"
-#include "render/render.h"
 #include "report/machine.h"
 #include "report/timing.h"
 #include "report/truth.h"
@@ -28,6 +28,7 @@ namespace fs = std::filesystem;
 
 constexpr int kPicturedSpp = 8;   ///< pictures of methods are from this many samples, if the sweep has them
 constexpr double kMapScale = 0.4; ///< FLIP that is the brightest colour of the maps
+constexpr const char* kAdaptive = " adaptive"; ///< behind the names of methods whose samples are placed
 
 int halved(int pixels) {
     return (pixels + 1) / 2;
@@ -103,12 +104,19 @@ private:
         return scene.film.crop.area() * samplesPerPixel * std::uint64_t(runs);
     }
 
+    bool placesSamples(const Scene& scene, int spp) const {
+        return firstPassSamples(spp, options_.placedShare) < spp && !scene.realistic;
+    }
+
     std::uint64_t workOf(const Scene& scene) const {
         std::uint64_t work = shareOf(scene, std::uint64_t(options_.truthSpp), 1);
         for (const int spp : options_.samples) {
             work += shareOf(scene, std::uint64_t(spp), options_.repeat + 1);
             forEachSetting([&](const Backend&, Method method, int outputs) {
-                work += shareOf(scene, std::uint64_t(outputsOf(method, outputs)), options_.repeat + 1);
+                const auto made = std::uint64_t(outputsOf(method, outputs));
+                work += shareOf(scene, made, options_.repeat + 1);
+                if (placesSamples(scene, spp))
+                    work += shareOf(scene, made + std::uint64_t(spp), options_.repeat + 1);
             });
         }
         for (const int spp : referenceSamples(options_.truthSpp))
@@ -133,47 +141,89 @@ private:
         writePng(pathOf(summary.truthPicture), toSrgb8(truth, options_.exposure));
         results_.scenes.push_back(summary);
         for (const int spp : options_.samples) runMethods(scene, tracer, content, truth, spp);
+        for (const int spp : options_.samples)
+            if (placesSamples(scene, spp)) runAdaptive(scene, tracer, content, truth, spp);
         for (const int spp : referenceSamples(options_.truthSpp))
             runReference(scene, tracer, content, truth, spp);
+    }
+
+    SampleOptions samplingOf(const Scene& scene, int spp) const {
+        const bool filtered = std::ranges::any_of(
+            options_.methods, [](Method method) { return traitsOf(method).filtersShading; });
+        return {.samplesPerPixel = spp,
+                .seed = options_.seed,
+                .planes = {.shading = filtered && hasShadingNoise(scene),
+                           .shadows = filtered && hasSoftShadows(scene)}};
+    }
+
+    ReconstructOptions reconstructionOf(const Scene& scene, Method method, int outputs) const {
+        ReconstructOptions reconstruction;
+        reconstruction.method = method;
+        reconstruction.outputsPerPixel = outputs;
+        reconstruction.filter = scene.filter;
+        reconstruction.seed = options_.seed;
+        return reconstruction;
     }
 
     /// Every method and setting from one light field of `spp` samples, which is traced only if it is needed.
     void runMethods(const Scene& scene, const Tracer& tracer, const std::string& content, const Image& truth,
                     int spp) {
-        const bool filtered = std::ranges::any_of(
-            options_.methods, [](Method method) { return traitsOf(method).filtersShading; });
-        const SampleOptions sampling{.samplesPerPixel = spp,
-                                     .seed = options_.seed,
-                                     .planes = {.shading = filtered && hasShadingNoise(scene),
-                                                .shadows = filtered && hasSoftShadows(scene)}};
         LightField field;
         Timing trace;
         beginShare(scene, std::uint64_t(spp), options_.repeat + 1);
-        forEachSetting([&](const Backend& backend, Method method, int outputs) {
+        forEachSetting([&](Backend& backend, Method method, int outputs) {
             Point point = newPoint(scene, content, slant::nameOf(method), spp, outputsOf(method, outputs),
                                    backend.name());
             if (takeKnown(point)) return;
             if (field.samples.empty())
                 trace = timeRuns(options_.repeat, [&] {
                     field = {};
-                    field = traceField(tracer, scene, sampling, work_).field;
+                    field = traceField(tracer, scene, samplingOf(scene, spp), work_).field;
                 });
-            beginShare(scene, std::uint64_t(point.outputs), options_.repeat + 1);
-            ReconstructOptions reconstruction;
-            reconstruction.method = method;
-            reconstruction.outputsPerPixel = outputs;
-            reconstruction.filter = scene.filter;
-            reconstruction.seed = options_.seed;
-            Image image;
-            const Timing reconstruct = timeRuns(options_.repeat, [&] {
-                ReconstructReport report;
-                image = backend.reconstructor().reconstruct(field, reconstruction, work_, report, nullptr);
-            });
             point.traceSeconds = trace.seconds;
-            point.reconstructSeconds = reconstruct.seconds;
-            point.runs = reconstruct.runs;
-            finish(point, image, truth);
+            measure(point, scene, backend, method, outputs, field, truth);
         });
+    }
+
+    /// The same with a share of the samples placed where the method's picture has most error.
+    void runAdaptive(const Scene& scene, const Tracer& tracer, const std::string& content, const Image& truth,
+                     int spp) {
+        const SampleOptions sampling = samplingOf(scene, firstPassSamples(spp, options_.placedShare));
+        forEachSetting([&](Backend& backend, Method method, int outputs) {
+            Point point = newPoint(scene, content, slant::nameOf(method) + kAdaptive, spp,
+                                   outputsOf(method, outputs), backend.name());
+            beginShare(scene, std::uint64_t(spp), options_.repeat + 1);
+            if (takeKnown(point)) return;
+            TracedField traced;
+            const ReconstructOptions reconstruction = reconstructionOf(scene, method, outputs);
+            point.traceSeconds = timeRuns(options_.repeat, [&] {
+                                     traced = {};
+                                     SamplePlacement placement(tracer, sampling, traced, work_);
+                                     traced = traceField(tracer, scene, sampling, work_);
+                                     ReconstructReport report;
+                                     std::vector<Agreement> agreements;
+                                     const ErrorEstimate error(backend, traced.field, reconstruction, {},
+                                                               false, work_, report, agreements);
+                                     placement.add(error, scene.film.crop.area() *
+                                                              std::uint64_t(spp - sampling.samplesPerPixel));
+                                 }).seconds;
+            measure(point, scene, backend, method, outputs, traced.field, truth);
+        });
+    }
+
+    /// Finishes the point of a field that is traced.
+    void measure(Point& point, const Scene& scene, const Backend& backend, Method method, int outputs,
+                 const LightField& field, const Image& truth) {
+        beginShare(scene, std::uint64_t(point.outputs), options_.repeat + 1);
+        const ReconstructOptions reconstruction = reconstructionOf(scene, method, outputs);
+        Image image;
+        const Timing timing = timeRuns(options_.repeat, [&] {
+            ReconstructReport report;
+            image = backend.reconstructor().reconstruct(field, reconstruction, work_, report, nullptr);
+        });
+        point.reconstructSeconds = timing.seconds;
+        point.runs = timing.runs;
+        finish(point, image, truth);
     }
 
     void runReference(Scene scene, const Tracer& tracer, const std::string& content, const Image& truth,
@@ -210,6 +260,7 @@ private:
         for (const int number : {spp, outputs, options_.repeat, options_.truthSpp, threadCount()})
             hash.add(number);
         hash.add(options_.seed);
+        hash.add(options_.placedShare);
         hash.add(options_.exposure);
         point.key = hash.hex();
         return point;
@@ -257,9 +308,12 @@ private:
     /// Curve after curve, brute force last.
     std::tuple<std::size_t, std::size_t, std::string, int, int> orderOf(const Point& p) const {
         const auto scene = std::ranges::find(results_.scenes, p.scene, &SceneSummary::name);
-        const auto method = std::ranges::find(methodNames(), p.method);
-        return {std::size_t(scene - results_.scenes.begin()), std::size_t(method - methodNames().begin()),
-                p.device, p.outputs, p.spp};
+        const bool adaptive = p.method.ends_with(kAdaptive);
+        const std::string name = adaptive ? p.method.substr(0, p.method.rfind(kAdaptive)) : p.method;
+        const auto method = std::ranges::find(methodNames(), name);
+        return {std::size_t(scene - results_.scenes.begin()),
+                2 * std::size_t(method - methodNames().begin()) + (adaptive ? 1 : 0), p.device, p.outputs,
+                p.spp};
     }
 
     std::string pathOf(const std::string& file) const {

@@ -21,6 +21,7 @@ struct SweepOptions {
     std::vector<int> samples;         ///< input samples per pixel
     std::vector<int> outputs;         ///< output samples per pixel, powers of two
     std::vector<std::string> devices; ///< as Backend takes them
+    double placedShare = 0;           ///< if > 0, methods are measured with that share of samples placed, too
     int repeat = 3;                   ///< timed runs per point
     int truthSpp = 4096;              ///< at least 64
     bool halfSize = false;            ///< half the resolution in both directions
