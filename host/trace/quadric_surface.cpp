@@ -147,8 +147,7 @@ void QuadricSurface::describe(std::uint32_t, const SurfaceLocation& at, SurfaceH
         normal = p;
         if (p.x == 0 && p.y == 0) p.x = 1e-5 * radius_; // the pole: any direction around the axis will do
         const double distance = std::sqrt(p.x * p.x + p.y * p.y);
-        dpdv = (thetaZMax_ - thetaZMin_) *
-               glm::dvec3(p.z * p.x / distance, p.z * p.y / distance, -radius_ * std::sin(theta));
+        dpdv = (thetaZMax_ - thetaZMin_) * glm::dvec3(p.z * p.x / distance, p.z * p.y / distance, -distance);
     } else if (kind_ == ShapeKind::disk) {
         double distance = std::sqrt(p.x * p.x + p.y * p.y);
         hit.uv = {float(phi / phiMax_), float((radius_ - distance) / (radius_ - innerRadius_))};

@@ -229,7 +229,7 @@ TEST(SceneErrors, materialsAndTextures) {
             {"Material \"diffuse\" \"spectrum reflectance\" [400 .1 400 .2]",
              ":2:20: 'reflectance': wavelengths must ascend, but 400 follows 400"},
             {"Material \"diffuse\" \"spectrum reflectance\" \"none.spd\"",
-             ":2:20: 'reflectance': spectrum \"none.spd\" is not supported here; give \"rgb reflectance\""},
+             ":2:20: none.spd: there is no such file"},
             {"Material \"conductor\" \"spectrum eta\" \"metal-Cu-ete\"",
              ":2:22: 'eta': spectrum \"metal-Cu-ete\" is not supported here; give \"rgb eta\", did you mean "
              "'metal-Cu-eta'?"},

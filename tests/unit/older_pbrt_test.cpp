@@ -3,6 +3,7 @@
 #include "support/scene_text.h"
 #include "support/temp_dir.h"
 
+#include <algorithm>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -117,6 +118,32 @@ TEST(OlderPbrt, texturesLightsShapes) {
     };
     EXPECT_EQ(count(TextureKind::scale), 1);
     EXPECT_EQ(count(TextureKind::product), 1);
+}
+
+TEST(OlderPbrt, coloursOfLightsMultiply) {
+    const Scene scene = worldOf("LightSource \"point\" \"color I\" [1 2 3] \"color scale\" [2 1 .5]\n"
+                                "AreaLightSource \"area\" \"color L\" [1 1 1] \"color scale\" [3 2 1]");
+    EXPECT_EQ(scene.lights.at(0).emission, glm::vec3(2, 2, 1.5f));
+    EXPECT_EQ(scene.lights.at(0).scale, 1);
+    EXPECT_EQ(scene.areaLights.at(0).radiance, glm::vec3(3, 2, 1));
+}
+
+TEST(OlderPbrt, texturesOfAnotherKindOrNoneAreTakenAsPbrtDid) {
+    const std::string text =
+        "Film \"image\" WorldBegin\n"
+        "Texture \"mask\" \"color\" \"constant\" \"color value\" [.2 .3 .4]\n"
+        "MakeNamedMaterial \"a\" \"string type\" \"matte\" \"texture Kd\" \"gone\"\n"
+        "Material \"mix\" \"string namedmaterial1\" \"a\" \"string namedmaterial2\" \"a\"\n"
+        "\"texture amount\" \"mask\"";
+    const Scene scene = sceneOf(text);
+    EXPECT_EQ(reflectanceOf(scene, 1).value, glm::vec3(0.5f));
+    const auto mix = std::ranges::find(scene.materials, MaterialKind::mix, &Material::kind);
+    ASSERT_NE(mix, scene.materials.end());
+    EXPECT_EQ(scene.textures.at(std::size_t(mix->amount)).value.x, 0.2f);
+    EXPECT_THAT(warningsOf(text),
+                testing::IsSupersetOf(
+                    {"s.pbrt:3:45: there is no spectrum texture 'gone'; 'reflectance' has its default",
+                     "s.pbrt:5:1: the red of the spectrum texture 'mask' is taken for 'amount'"}));
 }
 
 TEST(OlderPbrt, attributesAndObjectsMayInterleave) {
