@@ -174,7 +174,7 @@ void standInForSubsurface(Material& material, ParameterList& parameters, Texture
         const Parameter* p = findSpectrum(parameters, name);
         return p ? spectrumValue(*p, SpectrumUse::unbounded) : perMillimetre;
     };
-    // pbrt's defaults, of skimmed milk.
+    // pbrt's defaults, of whole milk.
     const glm::vec3 absorbed = coefficient("sigma_a", {0.0011f, 0.0024f, 0.014f});
     const glm::vec3 scattered = coefficient("sigma_s", {2.55f, 3.21f, 3.77f});
     const float g = parameters.number("g", 0, {-1, 1});

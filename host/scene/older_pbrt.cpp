@@ -146,7 +146,7 @@ void Upgrade::sampler() {
 }
 
 void Upgrade::integrator() {
-    remove({"rrthreshold", "lightsamplestrategy", "pixelbounds"});
+    remove({"rrthreshold", "lightsamplestrategy", "strategy", "pixelbounds"});
     if (kind_ != "directlighting") return;
     become("path");
     parameters_.clear();
@@ -303,6 +303,8 @@ void Upgrade::light() {
     if (kind_ == "area") become("diffuse");
     if (kind_ == "exinfinite") become("infinite");
     remove({"samples", "nsamples"});
+    if (const Parameter* map = find("mapname"); map && map->strings == std::vector<std::string>{""})
+        remove({"mapname"});
     double scale = 1;
     const auto takeGrey = [&](std::string_view name) {
         const Parameter* p = find(name);

@@ -93,7 +93,8 @@ Shape turned(ShapeKind kind, glm::vec3 from, glm::vec3 to, ParameterList& parame
     shape.kind = kind;
     shape.ends = {from, to};
     shape.phiMaxDegrees = std::clamp(parameters.number("phimax", 360), 0.f, 360.f);
-    if (from.z == to.z || shape.phiMaxDegrees == 0)
+    const bool isOnAxis = glm::vec2(from) == glm::vec2(0) && glm::vec2(to) == glm::vec2(0);
+    if (isOnAxis || from.z == to.z || shape.phiMaxDegrees == 0)
         throw badInput(parameters.position(), "nothing is left of this shape between its ends, 0 and phimax");
     return shape;
 }

@@ -5,8 +5,7 @@
 
 namespace slant {
 
-class Profile {
-public:
+struct Profile {
     Profile() = default;
     /// Of any shape but meshes and disks.
     explicit Profile(const Shape& shape);
@@ -34,8 +33,7 @@ public:
     }
     /// Derivative in v at a point off the axis.
     glm::dvec3 dpdv(glm::dvec3 p) const;
-
-private:
+    /// Where the line of a hyperboloid passes z before it turns; of others the direction of that alone.
     glm::dvec2 curveAt(double z) const { return glm::mix(from, to, vAt(z)); }
 };
 

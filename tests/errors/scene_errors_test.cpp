@@ -115,6 +115,8 @@ TEST(SceneErrors, shapes) {
             {"\"cone\" \"float height\" -1", ":2:14: 'height' is -1, but must be above 0"},
             {"\"paraboloid\" \"float zmax\" 0",
              ":2:1: nothing is left of this shape between its ends, 0 and phimax"},
+            {"\"hyperboloid\" \"point3 p2\" [0 0 2]",
+             ":2:1: nothing is left of this shape between its ends, 0 and phimax"},
             {"\"hyperboloid\" \"point3 p2\" [1 2 0]",
              ":2:1: nothing is left of this shape between its ends, 0 and phimax"},
             {"\"loopsubdiv\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer levels\" 15",

@@ -122,7 +122,9 @@ TEST(OlderPbrt, texturesLightsShapes) {
 
 TEST(OlderPbrt, coloursOfLightsMultiply) {
     const Scene scene = worldOf("LightSource \"point\" \"color I\" [1 2 3] \"color scale\" [2 1 .5]\n"
-                                "AreaLightSource \"area\" \"color L\" [1 1 1] \"color scale\" [3 2 1]");
+                                "AreaLightSource \"area\" \"color L\" [1 1 1] \"color scale\" [3 2 1]\n"
+                                "LightSource \"infinite\" \"color L\" [1 2 3] \"string mapname\" \"\"");
+    EXPECT_EQ(scene.lights.at(1).emission, glm::vec3(1, 2, 3));
     EXPECT_EQ(scene.lights.at(0).emission, glm::vec3(2, 2, 1.5f));
     EXPECT_EQ(scene.lights.at(0).scale, 1);
     EXPECT_EQ(scene.areaLights.at(0).radiance, glm::vec3(3, 2, 1));
