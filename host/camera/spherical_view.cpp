@@ -1,7 +1,7 @@
 #include "camera/spherical_view.h"
 
 #include "camera/disc.h"
-#include "camera/octahedral.h"
+#include "image/octahedral.h"
 
 namespace slant {
 namespace {

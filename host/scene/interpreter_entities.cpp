@@ -52,9 +52,9 @@ Unsupported noMedia(const Position& where) {
 } // namespace
 
 void Interpreter::noteOlder(const Position& where) {
-    if (!std::exchange(isOlder_, true))
-        issues_.note(where,
-                     "this is of an older pbrt; the scene is read as pbrt's own upgrade translates it");
+    if (std::exchange(isOlder_, true)) return;
+    textures_.takeForOlder();
+    issues_.note(where, "this is of an older pbrt; the scene is read as pbrt's own upgrade translates it");
 }
 
 /// The parameters of an entity whose kind, as of pbrt-v4, goes into `kind`.

@@ -1,5 +1,7 @@
 #include "scene/latlong.h"
 
+#include "image/octahedral.h"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
@@ -10,16 +12,6 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr int kLooks = 4; ///< into the image for each pixel, along each side
-
-/// Clarberg 2008; the whole map is in trace/, this is the way from [-1, 1]^2 to a direction.
-glm::dvec3 directionOf(const glm::dvec2& p) {
-    const glm::dvec2 a = glm::abs(p);
-    const double beyond = 1 - (a.x + a.y), r = 1 - std::abs(beyond);
-    const double angle = r == 0 ? 0 : kPi / 4 * ((a.y - a.x) / r + 1);
-    const double across = r * std::sqrt(2 - r * r);
-    return {std::copysign(across * std::cos(angle), p.x), std::copysign(across * std::sin(angle), p.y),
-            std::copysign(1 - r * r, beyond)};
-}
 
 /// Bilinear; around the sphere, but not over the poles.
 glm::dvec3 lookUp(const Image& image, const glm::dvec3& d) {
@@ -46,7 +38,8 @@ Image octahedralOfLatLong(const Image& latLong) {
             glm::dvec3 sum(0);
             for (int look = 0; look < kLooks * kLooks; ++look) {
                 const glm::dvec2 within((look % kLooks + 0.5) / kLooks, (look / kLooks + 0.5) / kLooks);
-                sum += lookUp(latLong, directionOf(2.0 * (glm::dvec2(x, y) + within) / double(side) - 1.0));
+                const glm::vec2 place((glm::dvec2(x, y) + within) / double(side));
+                sum += lookUp(latLong, glm::dvec3(equalAreaSquareToSphere(place)));
             }
             for (int c = 0; c < 3; ++c) image.at(x, y, c) = float(sum[c] / (kLooks * kLooks));
         }

@@ -11,6 +11,13 @@ namespace {
 constexpr std::string_view kKinds[] = {"point", "spot", "goniometric", "projection", "distant", "infinite"};
 constexpr std::string_view kAreaKinds[] = {"diffuse"};
 
+/// As in pbrt an empty name is none.
+std::optional<std::string> imageNameOf(ParameterList& parameters) {
+    std::optional<std::string> name = parameters.text("filename");
+    if (name && name->empty()) name.reset();
+    return name;
+}
+
 /// Without the parameter a light has the colour space's white at luminance 1, as in pbrt.
 glm::vec3 emission(ParameterList& parameters, std::string_view name) {
     const Parameter* parameter = findSpectrum(parameters, name);
@@ -47,7 +54,7 @@ void readSpot(Light& light, ParameterList& parameters) {
 
 /// The image of a light that cannot be without one.
 void readLightImage(Light& light, ParameterList& parameters, SceneFiles& files, bool average) {
-    const std::optional<std::string> filename = parameters.text("filename");
+    const std::optional<std::string> filename = imageNameOf(parameters);
     if (!filename)
         throw badInput(parameters.position(), "{} needs \"string filename\"", parameters.subject());
     light.imageIndex = files.image(*filename, {}, average, parameters.positionOf("filename"));
@@ -84,7 +91,7 @@ void readInfinite(Light& light, ParameterList& parameters, SceneFiles& files) {
                            portal.size());
         light.portal = {portal[0], portal[1], portal[2], portal[3]};
     }
-    const std::optional<std::string> filename = parameters.text("filename");
+    const std::optional<std::string> filename = imageNameOf(parameters);
     if (!filename) {
         light.emission = emission(parameters, "L");
         return;
@@ -127,7 +134,7 @@ AreaLight readAreaLight(const std::string& kind, ParameterList& parameters, Scen
         throw unsupported(parameters.position(), "area light \"{}\" is not supported{}", printable(kind),
                           didYouMean(kind, kAreaKinds));
     AreaLight light;
-    if (const std::optional<std::string> filename = parameters.text("filename")) {
+    if (const std::optional<std::string> filename = imageNameOf(parameters)) {
         if (findSpectrum(parameters, "L"))
             throw badInput(parameters.positionOf("L"), "an area light has either 'L' or 'filename'");
         light.imageIndex = files.image(*filename, {}, false, parameters.positionOf("filename"));

@@ -147,6 +147,54 @@ constexpr Kind kKinds[] = {
 };
 constexpr std::string_view kMix = "mix";
 
+/// Measured tables, of paints, fabrics and metals, that have to be taken on trust.
+void standInForTable(Material& material, ParameterList& parameters, TextureTable& textures) {
+    material.kind = MaterialKind::coatedDiffuse;
+    material.reflectance = textures.constant(glm::vec3(0.5f));
+    material.uRoughness = material.vRoughness = textures.constant(glm::vec3(0.3f));
+    parameters.ignore({"filename", "bsdffile"});
+    readGap(material, parameters, textures);
+}
+
+/// What a half-space of the medium reflects if light enters and leaves it freely (Jensen, Marschner, Levoy
+/// and Hanrahan 2001, "A Practical Model for Subsurface Light Transport", section 2.3, A = 1).
+glm::vec3 diffuseReflectance(glm::vec3 absorbed, glm::vec3 scattered) {
+    const glm::vec3 albedo = scattered / glm::max(absorbed + scattered, 1e-30f);
+    const glm::vec3 depth = glm::sqrt(3.f * (1.f - albedo));
+    return albedo / 2.f * (1.f + glm::exp(-4.f / 3 * depth)) * glm::exp(-depth);
+}
+
+/// A coat of the same interface over what the medium reflects, as if light left where it enters.
+void standInForSubsurface(Material& material, ParameterList& parameters, TextureTable& textures) {
+    material.kind = MaterialKind::coatedDiffuse;
+    material.interfaceEta = 1.33f;
+    readIndex(material, parameters, "eta");
+    readRoughness(material, parameters, textures);
+    const auto coefficient = [&](std::string_view name, glm::vec3 perMillimetre) {
+        const Parameter* p = findSpectrum(parameters, name);
+        return p ? spectrumValue(*p, SpectrumUse::unbounded) : perMillimetre;
+    };
+    // pbrt's defaults, of whole milk.
+    const glm::vec3 absorbed = coefficient("sigma_a", {0.0011f, 0.0024f, 0.014f});
+    const glm::vec3 scattered = coefficient("sigma_s", {2.55f, 3.21f, 3.77f});
+    const float g = parameters.number("g", 0, {-1, 1});
+    material.reflectance = textures.spectrumTexture(parameters, "reflectance", SpectrumUse::albedo,
+                                                    diffuseReflectance(absorbed, (1 - g) * scattered));
+    parameters.ignore({"mfp", "scale", "name"});
+    readGap(material, parameters, textures);
+}
+
+/// Kinds that --lenient has something nearer for than grey.
+struct StandIn {
+    std::string_view name, what;
+    void (*read)(Material&, ParameterList&, TextureTable&);
+};
+constexpr StandIn kStandIns[] = {
+    {"measured", "a grey, coated, rough diffuse material stands in", standInForTable},
+    {"fourier", "a grey, coated, rough diffuse material stands in", standInForTable},
+    {"subsurface", "\"coateddiffuse\" stands in", standInForSubsurface},
+};
+
 /// The normals that a material has of its own; as in pbrt, a normal map counts before a displacement.
 void readBumps(Material& material, ParameterList& parameters, TextureTable& textures, SceneFiles& files) {
     material.displacement = textures.floatTexture(parameters, "displacement", std::nullopt);
@@ -218,6 +266,17 @@ Material MaterialTable::read(Entry& entry, TextureTable& textures, SceneFiles& f
     } else if (kind != std::end(kKinds)) {
         kind->read(material, parameters, textures);
         if (material.kind != MaterialKind::interface) readBumps(material, parameters, textures, files);
+    } else if (const auto* standIn = std::ranges::find(kStandIns, entry.kind, &StandIn::name);
+               standIn != std::end(kStandIns)) {
+        issues_.attempt(standIn->what, [&] {
+            throw unsupported(parameters.position(), "material \"{}\" is not supported", standIn->name);
+        });
+        standIn->read(material, parameters, textures);
+        readBumps(material, parameters, textures, files);
+    } else if (entry.kind == "hair") {
+        throw unsupported(parameters.position(),
+                          "material \"hair\" is not supported: a sample has one depth, and"
+                          " strands thinner than a pixel have many");
     } else {
         std::vector<std::string_view> names{kMix};
         for (const Kind& each : kKinds) names.push_back(each.name);

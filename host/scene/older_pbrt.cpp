@@ -29,6 +29,7 @@ private:
     void uber();
     void plastic();
     void mix();
+    void multiplyByScale(std::string_view name);
     void light();
     void shape();
 
@@ -131,6 +132,9 @@ void Upgrade::filter() {
 }
 
 void Upgrade::sampler() {
+    if (const Parameter* centre = find("samplepixelcenter"); centre && centre->flags == std::vector{true})
+        note("samples are spread over the pixel, not taken at its centre");
+    remove({"samplepixelcenter"});
     if (kind_ == "lowdiscrepancy" || kind_ == "02sequence" || kind_ == "bestcandidate") become("paddedsobol");
     if (kind_ == "maxmindist") become("pmj02bn");
     if (kind_ == "random") become("independent");
@@ -142,7 +146,7 @@ void Upgrade::sampler() {
 }
 
 void Upgrade::integrator() {
-    remove({"rrthreshold", "lightsamplestrategy", "pixelbounds"});
+    remove({"rrthreshold", "lightsamplestrategy", "strategy", "pixelbounds"});
     if (kind_ != "directlighting") return;
     become("path");
     parameters_.clear();
@@ -199,8 +203,10 @@ void Upgrade::plastic() {
 void Upgrade::uber() {
     const Parameter* opacity = find("opacity");
     if (opacity && grey("opacity") != 1)
-        throw unsupported(opacity->position,
-                          "an 'opacity' other than 1 of material \"uber\" is not supported");
+        issues_.attempt("it is opaque", [&] {
+            throw unsupported(opacity->position,
+                              "an 'opacity' other than 1 of material \"uber\" is not supported");
+        });
     remove({"opacity"});
     for (const std::string_view name : {"Kr", "Kt"}) removeIf(name, 0);
     plastic();
@@ -281,19 +287,36 @@ void Upgrade::material() {
     }
 }
 
+/// A colour by one that is not grey; pbrt-v4 scales by a number only.
+void Upgrade::multiplyByScale(std::string_view name) {
+    const Parameter *own = find(name), *factor = find("scale");
+    if (!own || !factor || own->type != "rgb" || factor->type != "rgb" || grey("scale") || find("mapname"))
+        return;
+    Parameter product = *own;
+    for (std::size_t i = 0; i < std::min(own->numbers.size(), factor->numbers.size()); ++i)
+        product.numbers[i] *= factor->numbers[i];
+    replace(name, std::move(product));
+    remove({"scale"});
+}
+
 void Upgrade::light() {
     if (kind_ == "area") become("diffuse");
     if (kind_ == "exinfinite") become("infinite");
     remove({"samples", "nsamples"});
+    if (const Parameter* map = find("mapname"); map && map->strings == std::vector<std::string>{""})
+        remove({"mapname"});
     double scale = 1;
     const auto takeGrey = [&](std::string_view name) {
         const Parameter* p = find(name);
-        if (!p || p->type != "rgb") return;
+        if (!p || p->type != "rgb" || p->numbers.size() != 3) return;
         if (!grey(name))
-            throw unsupported(p->position, "a '{}' that is not grey is not supported here", name);
-        scale *= *grey(name);
+            issues_.attempt("the mean of its colours is taken", [&] {
+                throw unsupported(p->position, "a '{}' that is not grey is not supported here", name);
+            });
+        scale *= (p->numbers[0] + p->numbers[1] + p->numbers[2]) / 3;
         remove({name});
     };
+    for (const std::string_view name : {"I", "L"}) multiplyByScale(name);
     takeGrey("scale");
     if (find("mapname")) {
         takeGrey("L");

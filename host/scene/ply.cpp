@@ -54,8 +54,12 @@ VertexLayout layoutOf(const PlyElement& element, PlyInput& input) {
     return layout;
 }
 
+bool isFinite(double value) {
+    return std::abs(value) <= double(std::numeric_limits<float>::max());
+}
+
 /// All vertices; the indices stay empty.
-Mesh readVertices(const PlyElement& element, PlyInput& input) {
+Mesh readVertices(const PlyElement& element, PlyInput& input, std::size_t& lostNormals) {
     if (element.count > kMaxVertices)
         throw input.error(fmt::format("{} vertices are too many", element.count));
     const VertexLayout layout = layoutOf(element, input);
@@ -71,8 +75,12 @@ Mesh readVertices(const PlyElement& element, PlyInput& input) {
             else
                 input.skip(element.properties[p]);
         }
+        if (!(isFinite(row[nx]) && isFinite(row[ny]) && isFinite(row[nz]))) {
+            row[nx] = row[ny] = row[nz] = 0;
+            ++lostNormals;
+        }
         for (const double value : row)
-            if (!(std::abs(value) <= std::numeric_limits<float>::max()))
+            if (!isFinite(value))
                 throw input.error(fmt::format("vertex {} has a number that is not finite", i));
         mesh.positions.emplace_back(row[x], row[y], row[z]);
         if (layout.hasNormals) mesh.normals.emplace_back(row[nx], row[ny], row[nz]);
@@ -141,18 +149,18 @@ PlyMeshes parsePly(std::string_view bytes, const std::string& name) {
     const std::size_t vertexCount = count("vertex");
     if (vertexCount == 0 || count("face") == 0) throw input.error("the file has no vertices or no faces");
 
+    PlyMeshes meshes;
     Mesh vertices;
     Faces faces;
     for (const PlyElement& element : input.elements()) {
         input.checkCount(element);
         if (element.name == "vertex" && vertices.positions.empty())
-            vertices = readVertices(element, input);
+            vertices = readVertices(element, input, meshes.lostNormals);
         else if (element.name == "face" && faces.triangles.empty() && faces.patches.empty())
             faces = readFaces(element, vertexCount, input);
         else
             skipElement(element, input);
     }
-    PlyMeshes meshes;
     meshes.skippedFaces = faces.skipped;
     if (faces.triangles.empty() && faces.patches.empty())
         throw input.error("the file has no face of three or four vertices");

@@ -14,10 +14,11 @@ namespace slant {
 struct PlyMeshes {
     std::optional<Mesh> triangles, patches;
     std::size_t skippedFaces = 0;
+    std::size_t lostNormals = 0; ///< that are not finite, and 0 here
 };
 
 /// `name` stands for the file in messages. Allocates no more than a small multiple of `bytes`. Throws
-/// Error(badInput) for files that are malformed, have no faces, indices out of range or numbers that are not
+/// Error(badInput) for files that are malformed, have no faces, indices out of range or places that are not
 /// finite; with the line where the file is text.
 PlyMeshes parsePly(std::string_view bytes, const std::string& name);
 

@@ -183,17 +183,20 @@ struct Mesh {
     std::vector<std::uint32_t> indices; ///< 3 per triangle; 4 per bilinear patch (p00, p10, p01, p11)
 };
 
-enum class ShapeKind { mesh, sphere, disk, cylinder };
+/// Cylinders and cones are hyperboloids whose line meets the axis or runs along it.
+enum class ShapeKind { mesh, sphere, disk, hyperboloid, paraboloid };
 
 /// One shape as the file has it. Meshes may be shared between shapes.
 struct Shape {
     ShapeKind kind = ShapeKind::mesh;
     int meshIndex = -1;
-    float radius = 1;                  ///< quadrics
-    float zMin = -1, zMax = 1;         ///< sphere, cylinder
+    float radius = 1;                  ///< sphere, disk
+    float zMin = -1, zMax = 1;         ///< sphere
     float height = 0, innerRadius = 0; ///< disk
-    float phiMaxDegrees = 360;         ///< quadrics
-    MovingTransform worldFromObject;   ///< inside an object definition: instance space from object space
+    std::array<glm::vec3, 2>
+        ends{};                ///< hyperboloid: of the line that turns about z; paraboloid: of the curve
+    float phiMaxDegrees = 360; ///< all but meshes
+    MovingTransform worldFromObject; ///< inside an object definition: instance space from object space
     bool reverseOrientation = false;
     int materialIndex = -1; ///< never -1 after parsing
     int areaLightIndex = -1;

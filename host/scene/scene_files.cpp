@@ -132,6 +132,9 @@ std::vector<int> SceneFiles::plyMeshes(const std::string& filename, const Positi
     if (ply.skippedFaces > 0)
         monitor_.warn(fmt::format("{}: {}: {} faces have neither 3 nor 4 vertices and are left out",
                                   FileLocation(where).text(), path, ply.skippedFaces));
+    if (ply.lostNormals > 0)
+        monitor_.warn(fmt::format("{}: {}: {} normals are not finite; the faces there keep their own",
+                                  FileLocation(where).text(), path, ply.lostNormals));
     std::vector<int> indices;
     for (std::optional<Mesh>* mesh : {&ply.triangles, &ply.patches})
         if (*mesh) {

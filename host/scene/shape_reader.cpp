@@ -12,9 +12,6 @@
 namespace slant {
 namespace {
 
-constexpr std::string_view kKinds[] = {"trianglemesh", "bilinearmesh", "plymesh", "loopsubdiv",
-                                       "sphere",       "disk",         "cylinder"};
-
 /// Triangles that a loopsubdiv may come to.
 constexpr double kMaxSubdivided = 1 << 26;
 
@@ -90,18 +87,45 @@ int readSubdivision(ParameterList& parameters, Scene& scene) {
     return mesh;
 }
 
-Shape readCylinder(ParameterList& parameters) {
+/// The line or curve between two points as it turns about the z axis.
+Shape turned(ShapeKind kind, glm::vec3 from, glm::vec3 to, ParameterList& parameters) {
     Shape shape;
-    shape.kind = ShapeKind::cylinder;
-    shape.radius = parameters.number("radius", 1, kPositive);
-    const float low = parameters.number("zmin", -1), high = parameters.number("zmax", 1);
-    shape.zMin = std::min(low, high);
-    shape.zMax = std::max(low, high);
+    shape.kind = kind;
+    shape.ends = {from, to};
     shape.phiMaxDegrees = std::clamp(parameters.number("phimax", 360), 0.f, 360.f);
-    if (shape.zMin == shape.zMax || shape.phiMaxDegrees == 0)
-        throw badInput(parameters.position(),
-                       "nothing is left of this cylinder between zmin and zmax, 0 and phimax");
+    const bool isOnAxis = glm::vec2(from) == glm::vec2(0) && glm::vec2(to) == glm::vec2(0);
+    if (isOnAxis || from.z == to.z || shape.phiMaxDegrees == 0)
+        throw badInput(parameters.position(), "nothing is left of this shape between its ends, 0 and phimax");
     return shape;
+}
+
+Shape readCylinder(ParameterList& parameters) {
+    const float radius = parameters.number("radius", 1, kPositive);
+    const float low = parameters.number("zmin", -1), high = parameters.number("zmax", 1);
+    return turned(ShapeKind::hyperboloid, {radius, 0, std::min(low, high)}, {radius, 0, std::max(low, high)},
+                  parameters);
+}
+
+Shape readCone(ParameterList& parameters) {
+    const float radius = parameters.number("radius", 1, kPositive);
+    return turned(ShapeKind::hyperboloid, {radius, 0, 0}, {0, 0, parameters.number("height", 1, kPositive)},
+                  parameters);
+}
+
+Shape readHyperboloid(ParameterList& parameters) {
+    glm::vec3 from = parameters.triple("p1", "point3", glm::vec3(0)),
+              to = parameters.triple("p2", "point3", glm::vec3(1));
+    if (to.z == 0) std::swap(from, to); // so it is in pbrt, and v with it
+    return turned(ShapeKind::hyperboloid, from, to, parameters);
+}
+
+Shape readParaboloid(ParameterList& parameters) {
+    const float radius = parameters.number("radius", 1, kPositive);
+    const float a = parameters.number("zmin", 0, kNonNegative),
+                b = parameters.number("zmax", 1, kNonNegative);
+    const float low = std::min(a, b), high = std::max(a, b);
+    return turned(ShapeKind::paraboloid, {radius * std::sqrt(low / high), 0, low}, {radius, 0, high},
+                  parameters);
 }
 
 Shape readSphere(ParameterList& parameters) {
@@ -131,6 +155,15 @@ Shape readDisk(ParameterList& parameters) {
     return shape;
 }
 
+/// Shapes that their parameters describe alone.
+struct Quadric {
+    std::string_view name;
+    Shape (*read)(ParameterList&);
+};
+constexpr Quadric kQuadrics[] = {{"sphere", readSphere},         {"disk", readDisk},
+                                 {"cylinder", readCylinder},     {"cone", readCone},
+                                 {"paraboloid", readParaboloid}, {"hyperboloid", readHyperboloid}};
+
 } // namespace
 
 std::vector<Shape> readShapes(const std::string& kind, ParameterList& parameters, Scene& scene,
@@ -146,15 +179,18 @@ std::vector<Shape> readShapes(const std::string& kind, ParameterList& parameters
     } else if (kind == "loopsubdiv") {
         shapes.emplace_back();
         shapes.back().meshIndex = readSubdivision(parameters, scene);
-    } else if (kind == "cylinder") {
-        shapes = {readCylinder(parameters)};
-    } else if (kind == "sphere") {
-        shapes = {readSphere(parameters)};
-    } else if (kind == "disk") {
-        shapes = {readDisk(parameters)};
+    } else if (const auto* quadric = std::ranges::find(kQuadrics, kind, &Quadric::name);
+               quadric != std::end(kQuadrics)) {
+        shapes = {quadric->read(parameters)};
+    } else if (kind == "curve") {
+        throw unsupported(parameters.position(),
+                          "curves are not supported: a sample has one depth, and strands"
+                          " thinner than a pixel have many");
     } else {
+        std::vector<std::string_view> names{"trianglemesh", "bilinearmesh", "plymesh", "loopsubdiv"};
+        for (const Quadric& each : kQuadrics) names.push_back(each.name);
         throw unsupported(parameters.position(), "shape \"{}\" is not supported{}", printable(kind),
-                          didYouMean(kind, kKinds));
+                          didYouMean(kind, names));
     }
     parameters.finish();
     for (Shape& shape : shapes) {

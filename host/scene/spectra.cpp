@@ -90,6 +90,8 @@ glm::vec3 namedSpectrum(const Parameter& parameter, SpectrumUse use) {
     const std::optional<glm::vec3> known =
         use == SpectrumUse::illuminant ? illuminantRgb(name) : metalSpectrum(name);
     if (known) return glm::max(*known, 0.f);
+    if (name.ends_with(".spd"))
+        throw badInput(parameter.position, "{}: there is no such file", printable(name));
     throw unsupported(parameter.position, "'{}': spectrum \"{}\" is not supported here; give \"rgb {}\"{}",
                       parameter.name, printable(name), parameter.name, didYouMean(name, knownNames(use)));
 }
@@ -100,9 +102,11 @@ bool isNamedSpectrum(std::string_view name) {
                        [&](const NamedGlass& glass) { return glass.name == name; });
 }
 
-/// Older files name the metals by files that came with pbrt: "spds/metals/Au.eta.spd".
+/// Older files name the metals by files that came with pbrt: "spds/metals/Au.eta.spd",
+/// "Cu_palik.k.spd".
 std::string metalOfFile(const std::string& path) {
     std::string name = std::filesystem::path(path).stem().string();
+    if (const auto source = name.find("_palik"); source != name.npos) name.erase(source, 6);
     std::replace(name.begin(), name.end(), '.', '-');
     name.insert(0, "metal-");
     return metalSpectrum(name) ? name : "";

@@ -55,28 +55,42 @@ int TextureTable::constant(glm::vec3 value) {
     return int(scene_.textures.size()) - 1;
 }
 
-int TextureTable::named(bool isFloat, const Parameter& parameter) {
+/// Nothing where an older file goes on with a default.
+std::optional<int> TextureTable::named(bool isFloat, const Parameter& parameter) {
     const std::string& name = parameter.strings[0];
     if (parameter.strings.size() != 1)
         throw badInput(parameter.position, "'{}' must have one value", parameter.name);
     const auto found = definitions_.find({isFloat, name});
     if (found != definitions_.end()) return build(found->second);
-    if (definitions_.contains({!isFloat, name}))
+    const auto other = definitions_.find({!isFloat, name});
+    if (older_ && isFloat && other != definitions_.end()) {
+        issues_.note(parameter.position, fmt::format("the red of the spectrum texture '{}' is taken for '{}'",
+                                                     printable(name), parameter.name));
+        return build(other->second);
+    }
+    if (other != definitions_.end())
         throw badInput(parameter.position, "'{}' needs a {} texture, but '{}' is a {} texture",
                        parameter.name, isFloat ? "float" : "spectrum", printable(name),
                        isFloat ? "spectrum" : "float");
     std::vector<std::string_view> names;
     for (const auto& [key, definition] : definitions_)
         if (key.first == isFloat) names.push_back(key.second);
-    throw badInput(parameter.position, "there is no {} texture '{}'{}", isFloat ? "float" : "spectrum",
-                   printable(name), didYouMean(name, names));
+    const std::string missing =
+        fmt::format("there is no {} texture '{}'", isFloat ? "float" : "spectrum", printable(name));
+    if (!older_) throw badInput(parameter.position, "{}{}", missing, didYouMean(name, names));
+    issues_.note(parameter.position, fmt::format("{}; '{}' has its default", missing, parameter.name));
+    return {};
 }
 
 int TextureTable::floatTexture(ParameterList& parameters, std::string_view name,
                                std::optional<float> fallback, Range range) {
     const Parameter* parameter = parameters.find(name, {"float", "texture"});
-    if (parameter && parameter->type == "texture") return named(true, *parameter);
-    const std::optional<float> value = parameters.number(name, range);
+    std::optional<float> value;
+    if (parameter && parameter->type == "texture") {
+        if (const std::optional<int> index = named(true, *parameter)) return *index;
+    } else {
+        value = parameters.number(name, range);
+    }
     if (!value && !fallback) return -1;
     return constant(glm::vec3(value.value_or(fallback.value_or(0))));
 }
@@ -84,8 +98,11 @@ int TextureTable::floatTexture(ParameterList& parameters, std::string_view name,
 int TextureTable::spectrumTexture(ParameterList& parameters, std::string_view name, SpectrumUse use,
                                   std::optional<glm::vec3> fallback) {
     const Parameter* parameter = parameters.find(name, {"rgb", "spectrum", "blackbody", "texture"});
-    if (parameter && parameter->type == "texture") return named(false, *parameter);
-    if (parameter) return constant(spectrumValue(*parameter, use));
+    if (parameter && parameter->type == "texture") {
+        if (const std::optional<int> index = named(false, *parameter)) return *index;
+    } else if (parameter) {
+        return constant(spectrumValue(*parameter, use));
+    }
     return fallback ? constant(*fallback) : -1;
 }
 

@@ -26,6 +26,10 @@ public:
     void define(bool isFloat, const std::string& name, const std::string& kind, ParameterList parameters,
                 const glm::dmat4& textureFromWorld, bool mayReplace);
 
+    /// From here on textures of other names or types are looked for as pbrt-v3 does: floats may be the red of
+    /// a spectrum texture, and defaults take the place of what is not there.
+    void takeForOlder() { older_ = true; }
+
     /// Index of the texture that the parameter `name` means; -1 if it is not there and has no `fallback`.
     int floatTexture(ParameterList& parameters, std::string_view name, std::optional<float> fallback,
                      Range range = {});
@@ -48,7 +52,7 @@ private:
     };
     using Key = std::pair<bool, std::string>; // float?, name
 
-    int named(bool isFloat, const Parameter& parameter);
+    std::optional<int> named(bool isFloat, const Parameter& parameter);
     int build(Definition& definition);
     Texture make(Definition& definition);
     void makePattern(Texture& texture, Definition& definition);
@@ -63,6 +67,7 @@ private:
     Issues& issues_;
     std::map<Key, Definition> definitions_;
     int depth_ = 0;
+    bool older_ = false;
 };
 
 } // namespace slant

@@ -163,27 +163,29 @@ glm::vec3 worldNormal(const EmitterQuadric& q, glm::vec3 objectNormal) {
     return std::abs(glm::determinant(m)) * (glm::transpose(glm::mat3(q.objectFromWorld)) * objectNormal);
 }
 
+/// Of length 1, but 0 at the tip of a cone.
 glm::vec3 objectNormalAt(const EmitterQuadric& q, glm::vec3 objectPoint) {
-    if (q.kind == ShapeKind::disk) return {0, 0, 1};
-    return glm::vec3(objectPoint.x, objectPoint.y, q.kind == ShapeKind::sphere ? objectPoint.z : 0) /
-           q.radius;
+    if (!q.profile) return {0, 0, 1};
+    const glm::vec3 n(q.profile->normalAt(glm::dvec3(objectPoint)));
+    const float length = glm::length(n);
+    return length > 0 ? n / length : n;
 }
 
-float objectArea(const EmitterQuadric& q) {
-    return q.kind == ShapeKind::disk ? q.phiMax / 2 * (q.radius * q.radius - q.innerRadius * q.innerRadius)
-                                     : q.phiMax * q.radius * (q.zMax - q.zMin);
+/// Of objectPoint, over the area in object space.
+float objectPdf(const EmitterQuadric& q, glm::vec3 objectPoint) {
+    if (!q.profile) return 2 / (q.phiMax * (q.radius * q.radius - q.innerRadius * q.innerRadius));
+    const Profile& f = *q.profile;
+    return float(1 / (f.phiMax * (f.highZ() - f.lowZ()) * f.areaElement(double(objectPoint.z))));
 }
 
-/// Uniform over the area in object space.
+/// Evenly over a disk, and over the z and the angles of what turns, so evenly over spheres and cylinders.
 glm::vec3 objectPoint(const EmitterQuadric& q, glm::vec2 u) {
-    float phi = q.phiMax * u.y;
-    if (q.kind == ShapeKind::disk) {
-        float r = std::sqrt(glm::mix(q.innerRadius * q.innerRadius, q.radius * q.radius, u.x));
-        return {r * std::cos(phi), r * std::sin(phi), q.height};
-    }
-    float z = glm::mix(q.zMin, q.zMax, u.x), r = q.radius;
-    if (q.kind == ShapeKind::sphere) r = std::sqrt(std::max(0.f, r * r - z * z));
-    return {r * std::cos(phi), r * std::sin(phi), z};
+    if (q.profile)
+        return q.profile->point(glm::mix(q.profile->lowZ(), q.profile->highZ(), double(u.x)),
+                                q.profile->phiMax * double(u.y));
+    const float phi = q.phiMax * u.y;
+    const float r = std::sqrt(glm::mix(q.innerRadius * q.innerRadius, q.radius * q.radius, u.x));
+    return {r * std::cos(phi), r * std::sin(phi), q.height};
 }
 
 bool sampleQuadric(const Emitter& e, const EmitterQuadric& q, const Receiver& receiver, glm::vec2 u,
@@ -191,8 +193,9 @@ bool sampleQuadric(const Emitter& e, const EmitterQuadric& q, const Receiver& re
     glm::vec3 local = objectPoint(q, u);
     glm::vec3 n = worldNormal(q, objectNormalAt(q, local));
     float areaElement = glm::length(n);
+    if (!(areaElement > 0)) return false;
     return towards(e, receiver, glm::vec3(q.worldFromObject * glm::vec4(local, 1)), e.side * n / areaElement,
-                   1 / (objectArea(q) * areaElement), sample);
+                   objectPdf(q, local) / areaElement, sample);
 }
 
 } // namespace
@@ -201,10 +204,11 @@ float quadricArea(const EmitterQuadric& q) {
     constexpr int kSteps = 64;
     double sum = 0;
     for (int i = 0; i < kSteps; ++i)
-        for (int j = 0; j < kSteps; ++j)
-            sum += double(glm::length(
-                worldNormal(q, objectNormalAt(q, objectPoint(q, (glm::vec2(i, j) + 0.5f) / float(kSteps))))));
-    return float(sum / (kSteps * kSteps)) * objectArea(q);
+        for (int j = 0; j < kSteps; ++j) {
+            const glm::vec3 local = objectPoint(q, (glm::vec2(i, j) + 0.5f) / float(kSteps));
+            sum += double(glm::length(worldNormal(q, objectNormalAt(q, local))) / objectPdf(q, local));
+        }
+    return float(sum / (kSteps * kSteps));
 }
 
 bool sampleEmitter(const Emitter& e, std::span<const EmitterQuadric> quadrics, const Receiver& receiver,
@@ -245,7 +249,7 @@ float emitterPdf(const Emitter& e, std::span<const EmitterQuadric> quadrics, con
     case Emitter::Shape::quadric: {
         const EmitterQuadric& q = quadrics[std::size_t(e.quadric)];
         glm::vec3 local(q.objectFromWorld * glm::vec4(position, 1));
-        return fromArea / (objectArea(q) * glm::length(worldNormal(q, objectNormalAt(q, local))));
+        return fromArea * objectPdf(q, local) / glm::length(worldNormal(q, objectNormalAt(q, local)));
     }
     }
     return 0;

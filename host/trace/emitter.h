@@ -2,6 +2,7 @@
 // how to sample it from a receiving point.
 #pragma once
 #include "trace/point_profile.h"
+#include "trace/profile.h"
 #include "trace/warp.h"
 
 #include <span>
@@ -28,9 +29,8 @@ struct LightSample {
 /// A quadric that is not sampled by its solid angle: all but whole spheres that are not stretched.
 struct EmitterQuadric {
     glm::mat4 worldFromObject{1}, objectFromWorld{1};
-    ShapeKind kind = ShapeKind::sphere;
+    std::optional<Profile> profile{};              ///< all but disks
     float radius = 1, innerRadius = 0, height = 0; ///< disk: z = height
-    float zMin = -1, zMax = 1;                     ///< sphere, cylinder
     float phiMax = 2 * kPi;
 };
 

@@ -124,22 +124,20 @@ private:
         q.worldFromObject = glm::mat4(toWorld_);
         q.objectFromWorld = glm::mat4(glm::inverse(toWorld_));
         q.radius = shape_->radius;
-        q.phiMax = glm::radians(std::clamp(shape_->phiMaxDegrees, 0.f, 360.f));
-        q.kind = shape_->kind;
         q.innerRadius = shape_->innerRadius;
         q.height = shape_->height;
-        const float limit = q.kind == ShapeKind::sphere ? q.radius : std::numeric_limits<float>::infinity();
-        q.zMin = std::clamp(std::min(shape_->zMin, shape_->zMax), -limit, limit);
-        q.zMax = std::clamp(std::max(shape_->zMin, shape_->zMax), -limit, limit);
-        float area = quadricArea(q);
-        bool whole = q.zMin == -q.radius && q.zMax == q.radius && shape_->phiMaxDegrees >= 360;
+        q.phiMax = glm::radians(std::clamp(shape_->phiMaxDegrees, 0.f, 360.f));
+        if (shape_->kind != ShapeKind::disk) q.profile.emplace(*shape_);
+        const float area = quadricArea(q);
+        const bool wholeSphere = shape_->kind == ShapeKind::sphere && shape_->phiMaxDegrees >= 360 &&
+                                 q.profile->highZ() - q.profile->lowZ() == 2 * q.profile->radius;
         Emitter e = piece(Emitter::Shape::quadric, area);
         e.area = area;
         e.side = turned_ ? -1.f : 1.f;
         e.sampled = e.sampled && area > 0;
         e.origin = glm::vec3(toWorld_ * glm::dvec4(0, 0, 0, 1));
         e.radius = q.radius * float(std::cbrt(std::abs(glm::determinant(glm::dmat3(toWorld_)))));
-        if (q.kind == ShapeKind::sphere && whole && keepsSpheres())
+        if (wholeSphere && keepsSpheres())
             e.shape = Emitter::Shape::sphere;
         else {
             e.quadric = int(result_.quadrics.size());

@@ -4,7 +4,7 @@
 // exceeds the mean of the image, else a direction in proportion to the cosine to its normal. The estimate of
 // the irradiance stays bounded, for flat skies and for suns, without a second strategy.
 #pragma once
-#include "camera/octahedral.h"
+#include "image/octahedral.h"
 #include "scene/scene.h"
 #include "trace/warp.h"
 

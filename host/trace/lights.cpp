@@ -1,7 +1,7 @@
 #include "trace/lights.h"
 
 #include "base/error.h"
-#include "camera/octahedral.h"
+#include "image/octahedral.h"
 
 namespace slant {
 namespace {
@@ -58,15 +58,14 @@ LightBounds boundsAtOnce(const Emitter& e, std::span<const EmitterQuadric> quadr
         break;
     case Emitter::Shape::quadric: {
         const EmitterQuadric& q = quadrics[std::size_t(e.quadric)];
-        float low = q.kind == ShapeKind::cylinder ? q.zMin : -q.radius,
-              high = q.kind == ShapeKind::cylinder ? q.zMax : q.radius;
-        if (q.kind == ShapeKind::disk) low = high = q.height;
+        const float low = q.profile ? float(q.profile->lowZ()) : q.height,
+                    high = q.profile ? float(q.profile->highZ()) : q.height,
+                    r = q.profile ? float(q.profile->radius) : q.radius;
         b.low = glm::vec3(kInfinity);
         b.high = glm::vec3(-kInfinity);
         for (int corner = 0; corner < 8; ++corner)
-            cover(glm::vec3(q.worldFromObject * glm::vec4(corner & 1 ? q.radius : -q.radius,
-                                                          corner & 2 ? q.radius : -q.radius,
-                                                          corner & 4 ? high : low, 1)));
+            cover(glm::vec3(q.worldFromObject *
+                            glm::vec4(corner & 1 ? r : -r, corner & 2 ? r : -r, corner & 4 ? high : low, 1)));
         break;
     }
     }

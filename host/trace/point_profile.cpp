@@ -1,6 +1,6 @@
 #include "trace/point_profile.h"
 
-#include "camera/octahedral.h"
+#include "image/octahedral.h"
 #include "trace/warp.h"
 
 namespace slant {

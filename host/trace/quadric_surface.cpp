@@ -37,20 +37,24 @@ QuadricSurface::QuadricSurface(const Shape& shape)
     normalMatrix_ = glm::transpose(inverseLinear_);
     offset_ = glm::dvec3(matrix[3]);
 
-    const double limit = kind_ == ShapeKind::cylinder ? std::numeric_limits<double>::infinity() : radius_;
-    zMin_ = std::clamp(double(std::min(shape.zMin, shape.zMax)), -limit, limit);
-    zMax_ = std::clamp(double(std::max(shape.zMin, shape.zMax)), -limit, limit);
-    thetaZMin_ = std::acos(std::clamp(zMin_ / radius_, -1.0, 1.0));
-    thetaZMax_ = std::acos(std::clamp(zMax_ / radius_, -1.0, 1.0));
-    whole_ = shape.phiMaxDegrees >= 360 && zMin_ == -radius_ && zMax_ == radius_;
-    if (kind_ != ShapeKind::disk)
-        bounds_ = transformedBounds(matrix, {-radius_, -radius_, zMin_}, {radius_, radius_, zMax_});
-    else
+    if (kind_ == ShapeKind::disk) {
         bounds_ = transformedBounds(matrix, {-radius_, -radius_, height_}, {radius_, radius_, height_});
+        return;
+    }
+    profile_ = Profile(shape);
+    const double low = profile_.lowZ(), high = profile_.highZ(), r = profile_.radius;
+    thetaZMin_ = std::acos(std::clamp(low / radius_, -1.0, 1.0));
+    thetaZMax_ = std::acos(std::clamp(high / radius_, -1.0, 1.0));
+    whole_ = shape.phiMaxDegrees >= 360 && low == -radius_ && high == radius_;
+    bounds_ = transformedBounds(matrix, {-r, -r, low}, {r, r, high});
+}
+
+double QuadricSurface::phiOf(glm::dvec3 p) const {
+    return kind_ == ShapeKind::hyperboloid ? profile_.phiOf(p) : angleAround(p);
 }
 
 bool QuadricSurface::insidePhi(glm::dvec3 p) const {
-    return phiMax_ >= 2 * std::numbers::pi || angleAround(p) <= phiMax_;
+    return phiMax_ >= 2 * std::numbers::pi || phiOf(p) <= phiMax_;
 }
 
 std::optional<SurfaceLocation> QuadricSurface::intersect(std::uint32_t, const SurfaceRay& ray,
@@ -59,10 +63,10 @@ std::optional<SurfaceLocation> QuadricSurface::intersect(std::uint32_t, const Su
     switch (kind_) {
     case ShapeKind::sphere:
         return intersectSphere(objectRay, tMax);
-    case ShapeKind::cylinder:
-        return intersectCylinder(objectRay, tMax);
-    default:
+    case ShapeKind::disk:
         return intersectDisk(objectRay, tMax);
+    default:
+        return intersectTurned(objectRay, tMax);
     }
 }
 
@@ -82,28 +86,36 @@ std::optional<SurfaceLocation> QuadricSurface::intersectSphere(const SurfaceRay&
         if (!(t > 0 && t < tMax)) continue;
         glm::dvec3 p = o + t * d;
         p *= radius_ / glm::length(p);
-        if (whole_ || (p.z >= zMin_ && p.z <= zMax_ && insidePhi(p))) return SurfaceLocation{t, p};
+        if (whole_ || (p.z >= profile_.fromZ && p.z <= profile_.toZ && insidePhi(p)))
+            return SurfaceLocation{t, p};
     }
     return std::nullopt;
 }
 
-std::optional<SurfaceLocation> QuadricSurface::intersectCylinder(const SurfaceRay& ray, double tMax) const {
-    const glm::dvec2 o(ray.origin), d(ray.direction);
-    const double a = glm::dot(d, d), b = glm::dot(o, d);
-    const glm::dvec2 nearest = o - (b / a) * d;
-    const double discriminant = radius_ * radius_ - glm::dot(nearest, nearest);
+std::optional<SurfaceLocation> QuadricSurface::intersectTurned(const SurfaceRay& ray, double tMax) const {
+    const Profile& f = profile_;
+    const glm::dvec3 d = ray.direction, middle(0, 0, (f.fromZ + f.toZ) / 2);
+    // From the ray's point nearest to the middle of the shape: no cancellation for distant origins.
+    const double shift = glm::dot(middle - ray.origin, d) / glm::dot(d, d);
+    const glm::dvec3 o = ray.origin + shift * d;
+    const double a = d.x * d.x + d.y * d.y - f.a * d.z * d.z;
+    const double b = o.x * d.x + o.y * d.y - f.steepnessAt(o.z) * d.z;
+    const double c = o.x * o.x + o.y * o.y - ((f.a * o.z + f.b) * o.z + f.c);
+    const double discriminant = b * b - a * c;
     if (!(discriminant >= 0)) return std::nullopt;
-    const double q = -(b + std::copysign(std::sqrt(a * discriminant), b));
+    const double q = -(b + std::copysign(std::sqrt(discriminant), b));
     if (q == 0) return std::nullopt;
-    double t0 = q / a, t1 = (glm::dot(o, o) - radius_ * radius_) / q;
+    double t0 = shift + q / a, t1 = shift + c / q; // one is infinite along a line of the surface
     if (t0 > t1) std::swap(t0, t1);
     for (const double t : {t0, t1}) {
         if (!(t > 0 && t < tMax)) continue;
-        glm::dvec3 p = ray.origin + t * ray.direction;
-        const double scale = radius_ / std::sqrt(p.x * p.x + p.y * p.y);
+        glm::dvec3 p = ray.origin + t * d;
+        if (!(p.z >= f.lowZ() && p.z <= f.highZ())) continue;
+        const double distance = std::sqrt(p.x * p.x + p.y * p.y);
+        const double scale = distance > 0 ? f.radiusAt(p.z) / distance : 0;
         p.x *= scale;
         p.y *= scale;
-        if (p.z >= zMin_ && p.z <= zMax_ && insidePhi(p)) return SurfaceLocation{t, p};
+        if (insidePhi(p)) return SurfaceLocation{t, p};
     }
     return std::nullopt;
 }
@@ -128,25 +140,25 @@ SurfaceLocation QuadricSurface::locate(const FoundHit& found, const SurfaceRay& 
 
 void QuadricSurface::describe(std::uint32_t, const SurfaceLocation& at, SurfaceHit& hit) const {
     glm::dvec3 p = at.local, normal, dpdv;
-    double phi = angleAround(p);
+    const double phi = phiOf(p);
     if (kind_ == ShapeKind::sphere) {
         double theta = std::acos(std::clamp(p.z / radius_, -1.0, 1.0));
         hit.uv = {float(phi / phiMax_), float((theta - thetaZMin_) / (thetaZMax_ - thetaZMin_))};
         normal = p;
         if (p.x == 0 && p.y == 0) p.x = 1e-5 * radius_; // the pole: any direction around the axis will do
         const double distance = std::sqrt(p.x * p.x + p.y * p.y);
-        dpdv = (thetaZMax_ - thetaZMin_) *
-               glm::dvec3(p.z * p.x / distance, p.z * p.y / distance, -radius_ * std::sin(theta));
-    } else if (kind_ == ShapeKind::cylinder) {
-        hit.uv = {float(phi / phiMax_), float((p.z - zMin_) / (zMax_ - zMin_))};
-        normal = {p.x, p.y, 0};
-        dpdv = {0, 0, zMax_ - zMin_};
-    } else {
+        dpdv = (thetaZMax_ - thetaZMin_) * glm::dvec3(p.z * p.x / distance, p.z * p.y / distance, -distance);
+    } else if (kind_ == ShapeKind::disk) {
         double distance = std::sqrt(p.x * p.x + p.y * p.y);
         hit.uv = {float(phi / phiMax_), float((radius_ - distance) / (radius_ - innerRadius_))};
         normal = {0, 0, 1};
         if (distance == 0) p.x = 1e-5 * radius_;
         dpdv = (innerRadius_ - radius_) * glm::normalize(glm::dvec3(p.x, p.y, 0));
+    } else {
+        hit.uv = {float(phi / phiMax_), float(profile_.vAt(p.z))};
+        if (p.x == 0 && p.y == 0) p.x = 1e-5 * profile_.radius; // the tip
+        normal = profile_.normalAt(p);
+        dpdv = profile_.dpdv(p);
     }
     normal = glm::normalize(normalMatrix_ * (flip_ ? -normal : normal));
     hit.position = linear_ * at.local + offset_;

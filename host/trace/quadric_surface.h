@@ -1,5 +1,6 @@
-// Spheres, disks and cylinders, whole or partial, as pbrt defines them.
+// Spheres, disks, cylinders, cones, hyperboloids and paraboloids, whole or partial, as pbrt defines them.
 #pragma once
+#include "trace/profile.h"
 #include "trace/surface.h"
 
 namespace slant {
@@ -17,13 +18,14 @@ public:
 
 private:
     std::optional<SurfaceLocation> intersectSphere(const SurfaceRay& objectRay, double tMax) const;
-    std::optional<SurfaceLocation> intersectCylinder(const SurfaceRay& objectRay, double tMax) const;
+    std::optional<SurfaceLocation> intersectTurned(const SurfaceRay& objectRay, double tMax) const;
     std::optional<SurfaceLocation> intersectDisk(const SurfaceRay& objectRay, double tMax) const;
+    double phiOf(glm::dvec3 p) const;
     bool insidePhi(glm::dvec3 p) const;
 
     ShapeKind kind_;
     double radius_, phiMax_;
-    double zMin_, zMax_;           ///< sphere, cylinder
+    Profile profile_;              ///< all but disks
     double thetaZMin_, thetaZMax_; ///< sphere
     double height_, innerRadius_;  ///< disk
     bool flip_, whole_;

@@ -108,9 +108,17 @@ TEST(SceneErrors, shapes) {
     check(
         {
             {"\"spher\"", ":2:1: shape \"spher\" is not supported, did you mean 'sphere'?"},
-            {"\"cone\"", ":2:1: shape \"cone\" is not supported"},
+            {"\"curve\"", ":2:1: curves are not supported: a sample has one depth, and strands thinner than "
+                          "a pixel have many"},
             {"\"cylinder\" \"float zmin\" 1",
-             ":2:1: nothing is left of this cylinder between zmin and zmax, 0 and phimax"},
+             ":2:1: nothing is left of this shape between its ends, 0 and phimax"},
+            {"\"cone\" \"float height\" -1", ":2:14: 'height' is -1, but must be above 0"},
+            {"\"paraboloid\" \"float zmax\" 0",
+             ":2:1: nothing is left of this shape between its ends, 0 and phimax"},
+            {"\"hyperboloid\" \"point3 p2\" [0 0 2]",
+             ":2:1: nothing is left of this shape between its ends, 0 and phimax"},
+            {"\"hyperboloid\" \"point3 p2\" [1 2 0]",
+             ":2:1: nothing is left of this shape between its ends, 0 and phimax"},
             {"\"loopsubdiv\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer levels\" 15",
              ":2:51: 1 triangles cut 15 times are too many"},
             {"\"disk\" \"float innerradius\" 1",
@@ -211,7 +219,8 @@ TEST(SceneErrors, materialsAndTextures) {
         {
             {"Material \"difuse\"", ":2:1: material \"difuse\" is not supported, did you mean 'diffuse'?"},
             {"Material \"varnish\"", ":2:1: material \"varnish\" is not supported"},
-            {"Material \"hair\"", ":2:1: material \"hair\" is not supported"},
+            {"Material \"hair\"", ":2:1: material \"hair\" is not supported: a sample has one depth, and "
+                                  "strands thinner than a pixel have many"},
             {"Material \"diffuse\" \"rgb reflectance\" [1 1 2]",
              ":2:20: 'reflectance' is 2, but must be at least 0 and at most 1"},
             {"Material \"diffuse\" \"rgb reflectance\" [1 1 1 1 1 1]",
@@ -222,7 +231,7 @@ TEST(SceneErrors, materialsAndTextures) {
             {"Material \"diffuse\" \"spectrum reflectance\" [400 .1 400 .2]",
              ":2:20: 'reflectance': wavelengths must ascend, but 400 follows 400"},
             {"Material \"diffuse\" \"spectrum reflectance\" \"none.spd\"",
-             ":2:20: 'reflectance': spectrum \"none.spd\" is not supported here; give \"rgb reflectance\""},
+             ":2:20: none.spd: there is no such file"},
             {"Material \"conductor\" \"spectrum eta\" \"metal-Cu-ete\"",
              ":2:22: 'eta': spectrum \"metal-Cu-ete\" is not supported here; give \"rgb eta\", did you mean "
              "'metal-Cu-eta'?"},

@@ -60,8 +60,8 @@ TEST_P(SceneParity, runsRepeat) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneParity,
                          testing::Values("spheres", "row", "lights", "foliage", "indirect", "mirror",
-                                         "row-dgauss", "row-fisheye", "spin", "crossing", "dolly",
-                                         "butterflies", "shadows"),
+                                         "still-life", "row-dgauss", "row-fisheye", "spin", "crossing",
+                                         "dolly", "butterflies", "shadows"),
                          [](const auto& scene) {
                              std::string name = scene.param;
                              std::ranges::replace(name, '-', '_');

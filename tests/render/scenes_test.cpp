@@ -45,9 +45,9 @@ TEST(Scenes, theGeneratorMakesTheCommittedBytes) {
 }
 
 TEST(Scenes, areSmallAndReadWithoutAWarning) {
-    for (const std::string name : {"spheres", "row", "lights", "foliage", "indirect", "mirror", "row-dgauss",
-                                   "row-wide", "row-telephoto", "row-fisheye", "spin", "crossing", "dolly",
-                                   "butterflies", "shadows", "shadows-defocused"}) {
+    for (const std::string name : {"spheres", "row", "lights", "foliage", "indirect", "mirror", "still-life",
+                                   "row-dgauss", "row-wide", "row-telephoto", "row-fisheye", "spin",
+                                   "crossing", "dolly", "butterflies", "shadows", "shadows-defocused"}) {
         const Scene scene = load(name);
         EXPECT_EQ(scene.film.xResolution, 480) << name;
         EXPECT_EQ(scene.film.yResolution, 270) << name;
@@ -82,6 +82,11 @@ TEST(Scenes, haveWhatTheyAreFor) {
     EXPECT_EQ(movers(load("crossing")), 20);
     EXPECT_EQ(movers(load("butterflies")), 2 * 210) << "wings";
     EXPECT_EQ(load("shadows").areaLights.size(), 2u);
+    const Scene stillLife = load("still-life");
+    EXPECT_EQ(movers(stillLife), 1);
+    EXPECT_EQ(std::ranges::count(stillLife.materials, MaterialKind::dielectric, &Material::kind), 2);
+    EXPECT_TRUE(
+        std::ranges::any_of(stillLife.materials, [](const Material& m) { return m.displacement >= 0; }));
     const Scene dolly = load("dolly");
     EXPECT_EQ(movers(dolly), 0);
     EXPECT_TRUE(dolly.camera.worldFromCamera.moves());

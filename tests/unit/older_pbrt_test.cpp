@@ -1,7 +1,9 @@
 // Text of pbrt-v2 and -v3 is read as the pbrt-v4 text that stands beside it.
+#include "camera/compound_lens.h"
 #include "support/scene_text.h"
 #include "support/temp_dir.h"
 
+#include <algorithm>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -118,6 +120,34 @@ TEST(OlderPbrt, texturesLightsShapes) {
     EXPECT_EQ(count(TextureKind::product), 1);
 }
 
+TEST(OlderPbrt, coloursOfLightsMultiply) {
+    const Scene scene = worldOf("LightSource \"point\" \"color I\" [1 2 3] \"color scale\" [2 1 .5]\n"
+                                "AreaLightSource \"area\" \"color L\" [1 1 1] \"color scale\" [3 2 1]\n"
+                                "LightSource \"infinite\" \"color L\" [1 2 3] \"string mapname\" \"\"");
+    EXPECT_EQ(scene.lights.at(1).emission, glm::vec3(1, 2, 3));
+    EXPECT_EQ(scene.lights.at(0).emission, glm::vec3(2, 2, 1.5f));
+    EXPECT_EQ(scene.lights.at(0).scale, 1);
+    EXPECT_EQ(scene.areaLights.at(0).radiance, glm::vec3(3, 2, 1));
+}
+
+TEST(OlderPbrt, texturesOfAnotherKindOrNoneAreTakenAsPbrtDid) {
+    const std::string text =
+        "Film \"image\" WorldBegin\n"
+        "Texture \"mask\" \"color\" \"constant\" \"color value\" [.2 .3 .4]\n"
+        "MakeNamedMaterial \"a\" \"string type\" \"matte\" \"texture Kd\" \"gone\"\n"
+        "Material \"mix\" \"string namedmaterial1\" \"a\" \"string namedmaterial2\" \"a\"\n"
+        "\"texture amount\" \"mask\"";
+    const Scene scene = sceneOf(text);
+    EXPECT_EQ(reflectanceOf(scene, 1).value, glm::vec3(0.5f));
+    const auto mix = std::ranges::find(scene.materials, MaterialKind::mix, &Material::kind);
+    ASSERT_NE(mix, scene.materials.end());
+    EXPECT_EQ(scene.textures.at(std::size_t(mix->amount)).value.x, 0.2f);
+    EXPECT_THAT(warningsOf(text),
+                testing::IsSupersetOf(
+                    {"s.pbrt:3:45: there is no spectrum texture 'gone'; 'reflectance' has its default",
+                     "s.pbrt:5:1: the red of the spectrum texture 'mask' is taken for 'amount'"}));
+}
+
 TEST(OlderPbrt, attributesAndObjectsMayInterleave) {
     const Scene scene =
         sceneOf("Film \"image\" WorldBegin AttributeBegin ObjectBegin \"o\" Shape \"sphere\" AttributeEnd "
@@ -133,6 +163,41 @@ TEST(OlderPbrt, instantsAreExposedForASecond) {
     EXPECT_EQ(scene.film.imagingRatio, 1);
     EXPECT_GT(scene.camera.shutterClose, scene.camera.shutterOpen);
     EXPECT_LT(scene.camera.shutterClose, 0.26f);
+}
+
+/// The double Gauss, once placed by the distance of its film, in millimetres from the front of the lens, and
+/// once by its focus, in metres from the film.
+TEST(OlderPbrt, camerasWithTheDistanceOfTheirFilmAreThoseWithAFocus) {
+    const std::string lens = SLANT_SOURCE_DIR "/scenes/lenses/dgauss-50mm.dat";
+    const auto cameraOf = [](const Scene& scene) {
+        return CompoundLens(*scene.realistic, scene.camera.worldFromCamera, scene.film);
+    };
+    const CompoundLens focused = cameraOf(
+        sceneOf("Film \"rgb\" \"integer xresolution\" 300 \"integer yresolution\" 200 \"float diagonal\" 40\n"
+                "LookAt 1 2 3 4 2 8 0 1 0 Camera \"realistic\" \"string lensfile\" \"" +
+                lens + "\" \"float aperturediameter\" 9 \"float focusdistance\" 0.8 WorldBegin"));
+    const double filmDistance = -focused.filmZ(), toFront = focused.lens().frontVertex() + filmDistance;
+    EXPECT_GT(filmDistance, 30);
+    EXPECT_LT(filmDistance, 50);
+    const CompoundLens placed = cameraOf(
+        sceneOf(fmt::format("LookAt 1 2 3 4 2 8 0 1 0 Camera \"realistic\" \"string specfile\" \"{}\"\n"
+                            "\"float filmdistance\" {} \"float aperture_diameter\" 9 \"float filmdiag\" 40 "
+                            "\"float hither\" 0.001\n"
+                            "\"float yon\" 1000 Film \"image\" \"integer xresolution\" 300 \"integer "
+                            "yresolution\" 200 WorldBegin",
+                            lens, filmDistance)));
+    // Metres of the one are a thousand of the other, and its origin, the film, lies so far behind the front.
+    const glm::dvec3 eye(1, 2, 3), forward = glm::normalize(glm::dvec3(3, 0, 5));
+    for (int i = 0; i < 50; ++i) {
+        const glm::vec2 raster(float(i * 37 % 300) + 0.5f, float(i * 71 % 200) + 0.5f);
+        const glm::vec2 square(float(i) / 50, float(i * 13 % 50) / 50);
+        const CameraSample a = focused.sample(raster, square), b = placed.sample(raster, square);
+        const glm::dvec3 origin = eye + 1000.0 * (glm::dvec3(a.ray.origin) - eye) - toFront * forward;
+        EXPECT_LT(glm::distance(glm::normalize(a.ray.direction), glm::normalize(b.ray.direction)), 1e-4f);
+        const glm::dvec3 off = glm::dvec3(b.ray.origin) - origin, along(glm::normalize(b.ray.direction));
+        EXPECT_LT(glm::length(off - glm::dot(off, along) * along), 1e-2) << "millimetres";
+        EXPECT_NEAR(a.weight, b.weight, 1e-3f * a.weight);
+    }
 }
 
 } // namespace

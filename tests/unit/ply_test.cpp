@@ -50,6 +50,18 @@ TEST(Ply, isTheSameInEveryEncoding) {
     }
 }
 
+TEST(Ply, normalsThatAreNotFiniteAreNone) {
+    const PlyMeshes ply =
+        parsePly("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                 "property float z\nproperty float nx\nproperty float ny\nproperty float nz\n"
+                 "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                 "0 0 0 0 0 1\n1 0 0 nan nan nan\n0 1 0 0 0 1\n3 0 1 2\n",
+                 "m.ply");
+    EXPECT_EQ(ply.lostNormals, 1u);
+    EXPECT_THAT(ply.triangles.value().normals,
+                ElementsAre(glm::vec3(0, 0, 1), glm::vec3(0), glm::vec3(0, 0, 1)));
+}
+
 TEST(Ply, isReadThroughGzip) {
     const test::TempDir dir;
     const std::string path = dir.file("m.bin"); // by content, not by name

@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "scene/read_scene.h"
+#include "support/scene_text.h"
 #include "trace/pattern.h"
 #include "unit/trace_scenes.h"
 
@@ -163,6 +164,26 @@ TEST(Tracer, aConvexBodyUnderAConstantSkyShowsItsReflectance) {
     EXPECT_NEAR(clamped.r, 0.75 / 4, 0.003) << "samples keep their hue";
     scene.maxDepth = 0;
     EXPECT_EQ(mean(), glm::dvec3(0));
+}
+
+/// pbrt-v4's imaging ratio is the shutter time times iso / 100, for measured sensors, too: their white has
+/// the observer's luminance.
+TEST(Tracer, exposesByShutterAndIso) {
+    for (const char* sensor : {"cie1931", "canon_eos_5d_mkiv"}) {
+        const Scene scene = test::sceneOf(fmt::format(
+            "Film \"rgb\" \"integer xresolution\" 16 \"integer yresolution\" 16 \"float iso\" 320\n"
+            "\"string sensor\" \"{}\" Camera \"perspective\" \"float shutteropen\" 0.25\n"
+            "\"float shutterclose\" 0.75 WorldBegin LightSource \"infinite\" \"rgb L\" [.2 .4 .8]",
+            sensor));
+        SilentMonitor monitor;
+        Tracer tracer(scene, monitor);
+        glm::dvec3 sum(0);
+        const SampleSet set = traceSet(tracer, {0, 0, 16, 16}, 0, 4, 4);
+        for (const glm::vec3& rgb : set.radiance) sum += glm::dvec3(rgb) / double(set.radiance.size());
+        EXPECT_NEAR(sum.r, 1.6 * 0.2, 0.01 * 1.6 * 0.2) << sensor;
+        EXPECT_NEAR(sum.g, 1.6 * 0.4, 0.01 * 1.6 * 0.4) << sensor;
+        EXPECT_NEAR(sum.b, 1.6 * 0.8, 0.01 * 1.6 * 0.8) << sensor;
+    }
 }
 
 TEST(Tracer, recordsAlbedoAndNormalTowardsTheCamera) {
