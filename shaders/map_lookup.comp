@@ -20,7 +20,7 @@ layout(set = 0, binding = 8) uniform utextureBuffer mapMotions;  // of both laye
 layout(set = 0, binding = 9) uniform textureBuffer motionTexels;
 layout(set = 0, binding = 10) uniform textureBuffer lensMap;
 layout(set = 0, binding = 11) uniform textureBuffer distortion;
-layout(set = 0, binding = 12) uniform textureBuffer cornerRays;
+layout(set = 0, binding = 12) uniform textureBuffer apertureTable;
 layout(push_constant) uniform Push {
     MapLookupPush push;
 };
@@ -44,13 +44,13 @@ vec4 distortionAt(int texel) {
 vec4 lensMapAt(int texel) {
     return texelFetch(lensMap, texel);
 }
-vec4 cornerRayAt(int i) {
-    return texelFetch(cornerRays, i);
+float apertureAt(int i) {
+    return texelFetch(apertureTable, i).x;
 }
-#include "lib/lens_corners.glsl"
+#include "lib/aperture.glsl"
 #include "lib/lens_map.glsl"
 #include "lib/map_lookup.glsl"
-#include "lib/pixel_sight.glsl"
+#include "lib/output_pattern.glsl"
 
 /// Leaves this pixel to the bins, or all of the list.
 void miss(int list, uint clusterCount) {
@@ -78,8 +78,11 @@ void main() {
     // Positions outside the region are tested too: whether a list is served must not depend on bands.
     const bool inRegion = position.x < size.x && position.y < size.y;
     const vec2 middle = vec2(pixel) + 0.5;
-    PixelSight sight;
-    if (kCompoundLens) sight = pixelSight(position, middle, push.outputs.tileCount);
+    FilmPlace film;
+    if (kCompoundLens) film = filmPlace(middle);
+    // Rims cut the disc of a stop sharply, and evenly spaced places would miss thin slices of it: there,
+    // light is that of the outputs' own places.
+    const bool ofStop = kCompoundLens && lensMapAt(2).x > 0.0;
     vec3 sum = vec3(0.0);
     for (int rank = 0; rank < groupSize; ++rank) {
         if (rank >= taken && !inFocus) break;
@@ -87,10 +90,10 @@ void main() {
         vec4 value = vec4(vec3(0.0), kLeftOut);
         if (rank < taken) {
             const vec4 point = texelFetch(lensPoints, firstOutput + i);
+            const uvec4 entry = texelFetch(pattern, firstOutput + i);
             Output o = outputOnFilm(middle, vec2(0.0), 0.0, kWholePixel);
             float time = point.z;
             if (inFocus) {
-                const uvec4 entry = texelFetch(pattern, firstOutput + i);
                 o = placed(pixel, entry, seedOf(pixel, push.outputs.seed));
                 if (kMoving)
                     time = timeInShutter(pixel, firstOutput + i, entry.z, push.outputs.outputsPerPixel,
@@ -99,7 +102,15 @@ void main() {
                            0.5;
             }
             o.uv = point.xy;
-            if (kCompoundLens) lookFromCorners(sight, firstPlane + i, o.xy - middle, o);
+            if (kCompoundLens) {
+                if (inFocus) film = filmPlace(o.xy);
+                toSceneSide(o, sceneRay(film, o.uv));
+            }
+            if (ofStop) {
+                const Output own = outputAt(pixel, firstOutput + i, entry, push.lensCells, push.lensScale,
+                                            push.outputs.seed);
+                o.weight = sceneRay(own.xy, own.uv).weight;
+            }
             vec3 rgb = vec3(0.0);
             if (!(kCompoundLens && o.weight == 0.0)) { // else the film is dark
                 if (!look(Sight(o.xy, o.uv, time), clusterBegin, int(clusterCount), rgb)) {

@@ -27,17 +27,18 @@ std::vector<vec4> extendedRadii(const std::vector<vec4>& texels, double step, st
     return radii;
 }
 
-/// Film radius over distance on the scene's side, at even steps of that up to `farthest`.
-std::vector<double> ratiosOf(const std::vector<vec4>& radii, double step, double farthest) {
+/// Film radius over distance on the scene's side, at steps that grow with that, up to infinity.
+std::vector<double> ratiosOf(const std::vector<vec4>& radii, double step, double halfway) {
     std::vector<double> ratios{1 / double(radii[0].z)};
     std::size_t k = 0;
-    for (int i = 1; i <= kRatios; ++i) {
-        const double distance = farthest * double(i) / kRatios;
+    for (int i = 1; i < kRatios; ++i) {
+        const double distance = halfway * double(i) / (kRatios - i);
         while (k + 2 < radii.size() && double(radii[k + 1].x) <= distance) ++k;
         const double from = double(radii[k].x), to = double(radii[k + 1].x);
         const double part = to > from ? std::clamp((distance - from) / (to - from), 0.0, 1.0) : 0;
         ratios.push_back((double(k) + part) * step / distance);
     }
+    ratios.push_back(0);
     for (double& ratio : ratios) ratio = std::min(ratio, double(kMostSteep));
     return ratios;
 }
@@ -63,9 +64,11 @@ LensDistortion::LensDistortion(const LensMap& lens, float radiusPx) {
         radii[i].x = std::max(radii[i].x, radii[i - 1].x); // whatever a file has
         steepest_ = std::max(steepest_, std::min(1 / std::min(radii[i].y, radii[i].z), kMostSteep));
     }
-    const double farthest = std::max(double(radii.back().x), step);
-    const std::vector<double> ratios = ratiosOf(radii, step, farthest);
-    texels_.emplace_back(vec2(texels[0]), kRatios / farthest, kRatios);
+    // Where the film would see almost to the side, distances are any number of pixels.
+    const double halfway =
+        std::max(std::min(double(radii[0].z), double(kMostSteep)) * double(radiusPx), step);
+    const std::vector<double> ratios = ratiosOf(radii, step, halfway);
+    texels_.emplace_back(vec2(texels[0]), halfway, kRatios);
     for (std::size_t i = 0; i < ratios.size(); ++i)
         texels_.emplace_back(ratios[i], i + 1 < ratios.size() ? ratios[i + 1] - ratios[i] : 0, 0, 0);
 

@@ -105,10 +105,6 @@ SceneRay LensMap::at(vec2 raster, vec2 lens) const {
     return LensMapKernels{texels_.data()}.sceneRay(raster, lens);
 }
 
-LensNode LensMap::nodeAt(vec2 raster, vec2 lens) const {
-    return LensMapKernels{texels_.data()}.lensNodeAt(raster, lens);
-}
-
 const char* faultOf(const std::vector<vec4>& texels) {
     for (const vec4& texel : texels)
         for (int i = 0; i < 4; ++i)

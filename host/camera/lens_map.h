@@ -35,8 +35,6 @@ public:
     bool ofStop() const { return !empty() && texels_[2].x > 0; }
     /// `lens` in the unit disc.
     SceneRay at(vec2 raster, vec2 lens) const;
-    /// What nodes and lights have there, along x and y of the film.
-    LensNode nodeAt(vec2 raster, vec2 lens) const;
 
 private:
     std::vector<vec4> texels_;

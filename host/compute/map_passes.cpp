@@ -1,13 +1,12 @@
 #include "compute/map_passes.h"
 
 #include "compute/field_buffers.h"
-#include "reconstruct/lens_corners.h"
 
 namespace slant {
 
 MapPasses::MapPasses(Device& device, const OutputPattern& pattern, const LensMap& lens,
                      const LensDistortion& distortion, const DeviceBins& bins)
-    : device_(device), lens_(lens), distortion_(distortion), points_(lensPoints(pattern)),
+    : device_(device), lens_(lens), distortion_(distortion),
       map_(device, "layer_map", fieldConstants(!lens.empty(), bins.motion.moves())),
       reduce_(device, "map_reduce", fieldConstants(!lens.empty(), bins.motion.moves())),
       classify_(device, "list_classify", fieldConstants(!lens.empty(), bins.motion.moves())),
@@ -15,12 +14,13 @@ MapPasses::MapPasses(Device& device, const OutputPattern& pattern, const LensMap
       texels_(device, TexelFormat::rgba32ui, 0), motions_(device, TexelFormat::rgba32ui, 0),
       motionTexels_(motionBuffer(device, bins.motion.layout)),
       lensPoints_(device, TexelFormat::rgba32f, pattern.entries.size()),
+      aperture_(device, TexelFormat::r32f, pattern.aperture.table().size()),
       clusters_(device, TexelFormat::rgba32f, 0), lensMap_(lensBuffer(device, lens)),
       pinholeMap_(lensBuffer(device, distortion.pinhole())),
       distortionTexels_(device, TexelFormat::rgba32f, distortion.texels().size()),
-      cornerRays_(device, TexelFormat::rgba32f, 0),
       sights_(device, TexelFormat::rgba32f, pattern.groups.size()), moves_(bins.motion.moves()) {
-    lensPoints_.upload(points_);
+    lensPoints_.upload(lensPoints(pattern));
+    aperture_.upload(pattern.aperture.table());
     distortionTexels_.upload(distortion.texels());
     std::vector<LensSight> sights;
     for (const LensBox& group : pattern.groups) sights.push_back(sightThrough(group, pattern.lensScale));
@@ -82,20 +82,14 @@ void MapPasses::record(CommandList& commands, const ListPasses& listPasses, cons
     push.count = uint(lists.start.texels() - 1);
     push.groupBits = outputs.groupBits;
     push.sparseBits = outputs.takenBits;
+    push.lensCells = outputs.lensCells;
+    push.lensScale = outputs.lensScale;
     const std::uint64_t clusterTexels = lists.bricks.texels() * (moves_ ? kClusterTexels : 1);
     if (clusters_.texels() < clusterTexels) clusters_ = Buffer(device_, TexelFormat::rgba32f, clusterTexels);
     if (!lens_.empty()) {
-        const auto upload = [&](const auto& values) {
-            Buffer buffer(device_, TexelFormat::rgba32f, values.size());
-            buffer.upload(values);
-            return buffer;
-        };
-        const LensCorners corners =
-            lensCorners(lens_, outputs.outputs,
-                        std::span(points_).subspan(std::size_t(outputs.firstOutput),
-                                                   std::size_t(outputs.groupCount) << outputs.groupBits));
-        sights_ = upload(listPasses.lensTiles().sights);
-        cornerRays_ = upload(corners.rays);
+        const std::vector<LensSight>& sights = listPasses.lensTiles().sights;
+        sights_ = Buffer(device_, TexelFormat::rgba32f, sights.size());
+        sights_.upload(sights);
     }
     commands.dispatch(classify_,
                       {lists.start, lists.bricks, sights_, classes, clusters_, missed, lists.motions,
@@ -103,7 +97,7 @@ void MapPasses::record(CommandList& commands, const ListPasses& listPasses, cons
                       push, classify_.gridFor(push.count));
     commands.dispatch(lookup_,
                       {lists.start, clusters_, texels_, lensPoints_, pattern, classes, dense, missed,
-                       motions_, listPasses.motionTexels(), lensMap_, distortionTexels_, cornerRays_},
+                       motions_, listPasses.motionTexels(), lensMap_, distortionTexels_, aperture_},
                       push,
                       {std::uint32_t(outputs.outputs.tileCount.x), std::uint32_t(outputs.outputs.tileCount.y),
                        outputs.groupCount});

@@ -34,13 +34,11 @@ private:
     Device& device_;
     const LensMap& lens_;
     const LensDistortion& distortion_;
-    std::vector<vec4> points_; ///< lensPoints
     MapLayout layout_{};
     Pass map_, reduce_, classify_, lookup_;
-    Buffer texels_, motions_, motionTexels_, lensPoints_, clusters_;
+    Buffer texels_, motions_, motionTexels_, lensPoints_, aperture_, clusters_;
     Buffer lensMap_, pinholeMap_, distortionTexels_;
-    Buffer cornerRays_; ///< of a chunk, through a compound lens
-    Buffer sights_;     ///< of all groups; through a compound lens, of the lists of a chunk
+    Buffer sights_; ///< of all groups; through a compound lens, of the lists of a chunk
     bool moves_;
 };
 

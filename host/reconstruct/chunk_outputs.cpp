@@ -96,10 +96,6 @@ void ChunkOutputs::store(const Slot& slot, const Output& output, const Reconstru
 
 ListClasses ChunkOutputs::lookUpMap(const LayerMap& map, Monitor& monitor) {
     const std::size_t tiles = std::size_t(tileCount());
-    if (!lens_.empty())
-        corners_ = lensCorners(
-            lens_, chunk_.layout,
-            std::span(lensPoints_).subspan(std::size_t(chunk_.firstOutput), std::size_t(chunk_.planes)));
     ListClasses classes(tiles * groups_.size());
     parallelFor(0, tiles, 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t tile = first; tile < last; ++tile) {
@@ -138,7 +134,6 @@ bool ChunkOutputs::takePixel(const LayerMap& map, std::size_t group, ivec2 posit
     const bool inRegion = position.x < size.x && position.y < size.y;
     const int taken = takenOf(listClass.sparse);
     const vec2 middle = vec2(chunk_.layout.regionOrigin + position) + 0.5f;
-    const PixelSight sight = lens_.empty() ? PixelSight{} : pixelSight(lens_, chunk_.layout, position);
     vec3 sum(0);
     for (int rank = 0; rank < (listClass.inFocus ? pattern_.groupSize() : taken); ++rank) {
         const int k = memberAt(group, rank, listClass.sparse);
@@ -148,13 +143,15 @@ bool ChunkOutputs::takePixel(const LayerMap& map, std::size_t group, ivec2 posit
             continue;
         }
         Output own = outputAt(slot.pixel, chunk_.firstOutput + k, pattern_, chunk_.layout.seed);
+        const float light = lens_.ofStop() ? lens_.at(own.xy, own.uv).weight : 0;
         const vec4 point = lensPoints_[std::size_t(chunk_.firstOutput + k)];
         if (!listClass.inFocus) own.xy = middle;
         own.uv = vec2(point);
         // In focus, motion alone blurs, along a line: outputs at the same times in every pixel would cut
         // it into pieces.
         const float time = listClass.inFocus && pattern_.shutter.moves ? own.t - 0.5f : point.z;
-        if (!lens_.empty()) lookFromCorners(corners_, sight, k, own.xy - middle, own);
+        if (!lens_.empty()) toSceneSide(lens_, own);
+        if (lens_.ofStop()) own.weight = light; // of its own place, since even ones miss slices at rims
         vec3 rgb(0);
         if (own.weight != 0) { // else the film is dark
             const std::optional<vec3> seen = lookThrough(map, listClass.clusters, own.xy, own.uv, time);

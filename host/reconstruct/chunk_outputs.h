@@ -3,7 +3,6 @@
 #pragma once
 #include "base/monitor.h"
 #include "reconstruct/film_buffer.h"
-#include "reconstruct/lens_corners.h"
 #include "reconstruct/lens_tiles.h"
 #include "reconstruct/list_work.h"
 #include "reconstruct/map_lookup.h"
@@ -70,7 +69,6 @@ private:
     Chunk chunk_;
     std::span<const LensBox> groups_;
     std::vector<vec4> lensPoints_; ///< of all outputs of the pattern
-    LensCorners corners_;
 };
 
 } // namespace slant

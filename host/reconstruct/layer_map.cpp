@@ -43,12 +43,6 @@ Box boxOnFilm(const GridLayout& grid, const LensDistortion& distortion) {
 
 } // namespace
 
-bool mapServes(const LightField& field) {
-    constexpr double kLeastThroughLens = 8; // samples per pixel
-    const LensMap& lens = field.lensMap;
-    return lens.empty() || (!lens.ofStop() && sampleCounts(field).mean >= kLeastThroughLens);
-}
-
 int mapTexelsPerPixel(const LightField& field) {
     // With two or more samples per pixel, wider texels soften what is in focus.
     return sampleCounts(field).max <= 1 ? 1 : kMaxTexelsPerPixel;

@@ -25,11 +25,6 @@ struct LayerMap {
     std::vector<vec4> distortion;    ///< through a compound lens: of LensDistortion
 };
 
-/// Whether fields like this one are looked up in a layer map. Through a real lens it needs enough samples:
-/// from 4 per pixel corners of the film come out .5 % too dark, and errors are up to a quarter greater than
-/// those of the search. Shapes at its stop come out 5 to 7 % too bright there.
-bool mapServes(const LightField& field);
-
 /// For a map over the outputs of `region`; nothing for a thin lens.
 LensDistortion distortionOver(const Rect& region, const LensMap& lens);
 /// How far a surface may move over lens and shutter, in pixels, for the map to serve it: as far as any

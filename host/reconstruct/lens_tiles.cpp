@@ -80,19 +80,21 @@ std::array<vec4, kListBoxTexels> boxesOf(const std::vector<Output>& places, floa
     return {vec4(seen.low, seen.high), vec4(lens.low - bulge, lens.high + bulge)};
 }
 
-LensSight sightOf(const std::vector<Output>& places) {
+LensSight sightOf(const LensMap& lens, const std::vector<Output>& places) {
     if (places.empty()) return {};
-    Interval lens;
+    Interval seen;
     vec2 scales(kInfinity, 0);
     float farthest = 0;
     for (const Output& output : places) {
         const vec2 here = scalesOf(output.filmMetric);
         scales = {std::min(scales.x, here.x), std::max(scales.y, here.y)};
-        lens.add(output.uv, output.uv);
+        seen.add(output.uv, output.uv);
         farthest = std::max(farthest, glm::length(output.uv));
     }
-    const vec2 width = lens.high - lens.low;
-    return {farthest, scales.y * farthest, scales.y * std::max(width.x, width.y), scales.x};
+    // Places on a stop differ in the light that they let through, so none stands for others.
+    const vec2 extent = seen.high - seen.low;
+    const float width = lens.ofStop() ? kInfinity : scales.y * std::max(extent.x, extent.y);
+    return {farthest, scales.y * farthest, width, scales.x};
 }
 
 void ascend(float* low, float* high, int count) {
@@ -127,7 +129,7 @@ LensTiles lensTilesOf(const LensMap& lens, const OutputPattern& pattern, std::si
                     const std::vector<Output> places = placesOf(lens, pattern, firstGroup + group, corner);
                     const std::size_t list =
                         (group * std::size_t(rows) + std::size_t(y)) * std::size_t(columns) + std::size_t(x);
-                    tiles.sights[list] = sightOf(places);
+                    tiles.sights[list] = sightOf(lens, places);
                     std::ranges::copy(boxesOf(places, marginPx),
                                       tiles.boxes.begin() + std::ptrdiff_t(kListBoxTexels * list));
                     for (int k = 0; k < kLensTileSlopes; ++k) {

@@ -182,8 +182,7 @@ Image PreparedField::picture(const LensView& view, ValuePlane plane, Monitor& mo
         picture.fromWindows();
         break;
     case DenseSource::bins:
-        // Rims cut the disc of a stop sharply: what corners of tiles know of that is too coarse.
-        picture.fromBins(traits.usesLayerMap && mapServes(samples_.field()));
+        picture.fromBins(traits.usesLayerMap);
         break;
     }
     engine_->addPassTimes(report);

@@ -10,7 +10,7 @@
 KERNEL vec2 distorted(vec2 pinhole) {
     const vec2 offset = pinhole - vec2(distortionHead);
     const float r = sqrt(offset.x * offset.x + offset.y * offset.y);
-    const float place = min(r * distortionHead.z, distortionHead.w);
+    const float place = distortionHead.w - distortionHead.w * (distortionHead.z / (r + distortionHead.z));
     const int i = int(place);
     IN(vec4) ratio = distortionAt(1 + i);
     return vec2(distortionHead) + (ratio.x + (place - float(i)) * ratio.y) * offset;

@@ -76,18 +76,9 @@ KERNEL LensNode lensNode(IN(FilmPlace) film, vec2 lens) {
     return found;
 }
 
-/// The same in the frame of the film.
-KERNEL LensNode lensNodeAt(vec2 raster, vec2 lens) {
-    const FilmPlace film = filmPlace(raster);
-    LensNode found = lensNode(film, lens);
-    found.node = vec4(turned(film, vec2(found.node)), turned(film, vec2(found.node.z, found.node.w)));
-    return found;
-}
-
 /// From film and pupil, `lens` in the unit disc, to the scene's side.
-KERNEL SceneRay sceneRay(vec2 raster, vec2 lens) {
+KERNEL SceneRay sceneRay(IN(FilmPlace) film, vec2 lens) {
     SceneRay place = {vec2(0.0f), vec2(0.0f), vec3(0.0f), vec2(0.0f), 0.0f, 0.0f};
-    const FilmPlace film = filmPlace(raster);
     const vec4 here = film.here;
     if (!(film.inside && here.w > 0.0f)) return place;
     const LensNode found = lensNode(film, lens);
@@ -105,4 +96,7 @@ KERNEL SceneRay sceneRay(vec2 raster, vec2 lens) {
     place.extent =
         vec2(here.z + e.x * e.x * (here.y - here.z) + skew, here.z + e.y * e.y * (here.y - here.z) + skew);
     return place;
+}
+KERNEL SceneRay sceneRay(vec2 raster, vec2 lens) {
+    return sceneRay(filmPlace(raster), lens);
 }

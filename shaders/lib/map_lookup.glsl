@@ -158,15 +158,21 @@ KERNEL vec4 layerAround(IN(Lookup) lookup, vec2 place) {
 KERNEL bool look(IN(Sight) ray, int clusterBegin, int clusterCount, INOUT(vec3) sum) {
     vec3 rgb = vec3(0.0f), last = vec3(0.0f);
     float transmittance = 1.0f;
-    for (int i = 0; i < clusterCount; ++i) {
+    for (int i = 0; i < clusterCount && transmittance >= kOpaque; ++i) {
         IN(Cluster) cluster = clusterAt(clusterBegin + i);
-        const Lookup lookup = lookUp(cluster);
-        const vec4 layer = layerAround(lookup, placeOn(lookup, ray, settle(lookup, cluster, ray)));
-        if (!(layer.w > 0.0f)) continue;
-        rgb += transmittance * vec3(layer);
-        transmittance *= 1.0f - layer.w;
-        last = vec3(layer) / layer.w;
-        if (transmittance < kOpaque) break;
+        Lookup lookup = lookUp(cluster);
+        // A cluster is as wide as all that its tile sees, and may hold both layers of a texel.
+        for (int behind = 0; behind < kMapLayers; ++behind) {
+            const FoundLayer met = settle(lookup, cluster, ray);
+            const vec4 layer = layerAround(lookup, placeOn(lookup, ray, met));
+            if (layer.w > 0.0f) {
+                rgb += transmittance * vec3(layer);
+                transmittance *= 1.0f - layer.w;
+                last = vec3(layer) / layer.w;
+            }
+            lookup.low = met.slope + mapLayout.surfaceGap;
+            if (!(layer.w > 0.0f) || transmittance < kOpaque || lookup.low > cluster.slopeMax) break;
+        }
     }
     sum += rgb + transmittance * last;
     return transmittance != 1.0f;

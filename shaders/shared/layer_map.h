@@ -112,6 +112,8 @@ struct MapLookupPush {
     uint count;      // lists
     int groupBits;   // 2^groupBits outputs of a pixel share a list
     int sparseBits;  // 2^sparseBits of them are made in sparse lists
+    ivec2 lensCells; // as OutputPush
+    float lensScale;
 };
 
 SLANT_SHARED_END

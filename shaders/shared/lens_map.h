@@ -15,9 +15,9 @@ SLANT_SHARED_BEGIN
 /// the share of the disc that is open for this ring; 0.
 SLANT_SHARED_CONSTANT int kLensMapHeader = 3;
 
-/// Texels of host/camera/lens_distortion.h. Texel 0: film centre x, y; ratios per pixel of the scene's side;
-/// the number of the last. Then the ratios, by distance from the centre on the scene's side: film radius over
-/// that; how much greater the next one is; 0, 0.
+/// Texels of host/camera/lens_distortion.h. Texel 0: film centre x, y; the distance h from the centre on the
+/// scene's side, pixels, at half of the ratios; the number n of the last. Then the ratios, i of n at distance
+/// h i / (n - i): film radius over that; how much greater the next one is; 0, 0.
 
 /// What the map has of a ray, whether there is light or not.
 struct LensNode {
@@ -34,16 +34,6 @@ struct SceneRay {
     vec2 extent;     // half the size of a box around all that is within a pixel of the film
     float weight;    // irradiance of the film under radiance 1; 0: dark, no ray gets there
     float openShare; // of the disc, from which rays get there; 0: nothing else is set
-};
-
-/// How outputs look through the middle of a pixel (lib/lens_corners.glsl).
-struct PixelSight {
-    vec2 chief;       // on the plane in focus
-    vec3 sceneMetric; // symmetric matrix (xx, xy, yy) that turns a short way on the film into one there
-    float irradiance; // 0: the film is dark
-    int corner;       // of its tile, in the planes of corners
-    int row, plane;   // from a corner to the next
-    vec2 part;        // towards these
 };
 
 SLANT_SHARED_END

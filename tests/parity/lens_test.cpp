@@ -61,14 +61,11 @@ protected:
 /// Through the disc of the pupil and through a shape at the stop, distorted little and much.
 TEST_F(LensParity, layerMapsServeAsTheSearchDoes) {
     for (const std::string& lens : {kDoubleGauss, kDoubleGauss + " \"string aperture\" \"star\"", kFisheye})
-        for (const int spp : {4, 8}) {
+        for (const int spp : {1, 4, 8}) {
             const LightField field = fieldThrough(lens, spp);
             const test::Reconstruction looked = runBoth(field, optionsOf(Method::automatic));
             const test::Reconstruction searched = runBoth(field, optionsOf(Method::full));
-            if (field.lensMap.ofStop() || spp < 8)
-                EXPECT_EQ(looked.report.fromMap, 0u) << lens << ", " << spp;
-            else
-                EXPECT_GT(looked.report.fromMap, looked.report.outputs / 2) << lens << ", " << spp;
+            EXPECT_GT(looked.report.fromMap, looked.report.outputs / 2) << lens << ", " << spp;
             double difference = 0, sum = 0;
             for (std::size_t i = 0; i < looked.image.pixels.size(); ++i) {
                 difference += std::abs(double(looked.image.pixels[i]) - double(searched.image.pixels[i]));

@@ -61,7 +61,8 @@ const Layout kLayouts[] = {
            MEMBER(ReducePush, surfaceGap), MEMBER(ReducePush, code)),
     STRUCT(MapLookupPush, MEMBER(MapLookupPush, outputs), MEMBER(MapLookupPush, map),
            MEMBER(MapLookupPush, firstGroup), MEMBER(MapLookupPush, count), MEMBER(MapLookupPush, groupBits),
-           MEMBER(MapLookupPush, sparseBits)),
+           MEMBER(MapLookupPush, sparseBits), MEMBER(MapLookupPush, lensCells),
+           MEMBER(MapLookupPush, lensScale)),
     STRUCT(LowerBoundPush, MEMBER(LowerBoundPush, keyCount), MEMBER(LowerBoundPush, count)),
 };
 

@@ -2,7 +2,6 @@
 #include "camera/compound_lens.h"
 #include "camera/disc.h"
 #include "camera/lens_distortion.h"
-#include "reconstruct/lens_corners.h"
 #include "reconstruct/lens_tiles.h"
 #include "reconstruct/plan.h"
 #include "support/lenses.h"
@@ -167,35 +166,6 @@ TEST_P(LensMapOf, distortionTakesPinholePositionsBackToTheFilm) {
                   1.01f * distortion.aberrationPx() + 0.02f);
         ASSERT_LE(glm::length(real.uv), distortion.pupilReach());
     }
-}
-
-/// For surfaces of slopes up to 15.
-TEST_P(LensMapOf, cornersOfTilesTellWhereOutputsLook) {
-    OutputLayout layout{};
-    layout.regionSize = kSize;
-    layout.tileCount = (kSize + kTileSize - 1) / kTileSize;
-    std::vector<vec4> points;
-    for (int i = 0; i < 16; ++i) points.emplace_back(concentricDisc(draw_().x, draw_().y), 0, 0);
-    const LensCorners corners = lensCorners(map_, layout, points);
-    std::vector<double> errors;
-    for (int i = 0; i < 20000; ++i) {
-        const ivec2 position(draw_() * glm::vec2(kSize));
-        const int plane = i % 16;
-        const glm::vec2 fromMiddle = draw_() - 0.5f;
-        const SceneRay exact =
-            map_.at(glm::vec2(position) + 0.5f + fromMiddle, vec2(points[std::size_t(plane)]));
-        Output output{};
-        lookFromCorners(corners, pixelSight(map_, layout, position), plane, fromMiddle, output);
-        if (!(exact.weight > 0)) continue;
-        const glm::dvec2 off = glm::dvec2(exact.xy - output.xy) - 15.0 * glm::dvec2(exact.uv - output.uv);
-        errors.push_back(glm::length(onFilm(exact, off)));
-        ASSERT_NEAR(output.weight, exact.weight, 0.02f * exact.weight);
-    }
-    std::sort(errors.begin(), errors.end());
-    // At most 0.013 and 0.036; through the fisheye, whose pupil wanders far, 0.079 and 0.21.
-    const bool fisheye = std::string(GetParam()) == "fisheye-10mm";
-    EXPECT_LT(errors[errors.size() * 95 / 100], fisheye ? 0.1 : 0.02);
-    EXPECT_LT(errors.back(), fisheye ? 0.3 : 0.05);
 }
 
 TEST_P(LensMapOf, samplesOnTheScenesSideKeepTheRadianceOfTheScene) {

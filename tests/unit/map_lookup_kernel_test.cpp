@@ -118,6 +118,25 @@ TEST(MapLookup, compositesTwoLayersFrontToBack) {
     }
 }
 
+/// What a tile sees from -4 to 9 without gaps is one cluster, however far apart the two layers of a texel
+/// are.
+TEST(MapLookup, seesBothLayersOfOneCluster) {
+    const auto green = [](vec2) { return vec3(0, 1, 0); };
+    const float coverage = 51 / 255.f;
+    const LayerMap map = mapOf({{always(-4), green, coverage}, {always(9), ramp}}, 3);
+    Draw draw;
+    for (int i = 0; i < 4000; ++i) {
+        const float level = float(i % 3);
+        const std::vector<Cluster> apart{stillCluster(-4, -4, level), stillCluster(9, 9, level)};
+        const Cluster together = stillCluster(-4, 9, level);
+        const vec2 x = draw.place(4, 48), uv = draw.place(-1, 1);
+        const std::optional<vec3> expected = lookThrough(map, apart, x, uv);
+        const std::optional<vec3> got = lookThrough(map, {&together, 1}, x, uv);
+        ASSERT_TRUE(expected && got);
+        ASSERT_EQ(*got, *expected) << i;
+    }
+}
+
 /// Past its edge, a layer ends over the width of a texel.
 TEST(MapLookup, edgesAreAsWideAsATexel) {
     const auto green = [](vec2) { return vec3(0, 1, 0); };

@@ -1,5 +1,6 @@
 // Shapes at the stop of a real lens: brightness by pbrt's formula, where rays cross the stop, and the map.
 #include "camera/camera.h"
+#include "camera/lens_distortion.h"
 #include "support/lenses.h"
 
 #include <gtest/gtest.h>
@@ -107,6 +108,20 @@ TEST_P(ShapeAtStop, mapIsWithinATenthOfAPixelOfExactRays) {
     std::sort(errors.begin(), errors.end());
     EXPECT_LT(errors[errors.size() * 95 / 100], 0.05);
     EXPECT_LT(errors[errors.size() * 999 / 1000], 0.15);
+}
+
+/// Without rims the fisheye's middle ray looks to the side soon beyond its image: there floats end.
+TEST_P(ShapeAtStop, distortionTakesPinholePositionsBackToTheFilm) {
+    const LensDistortion distortion(camera_.lensMap(), 560);
+    int compared = 0;
+    for (int x = -120; x <= 600; x += 7)
+        for (int y = -70; y <= 340; y += 7) {
+            const vec2 pinhole = distortion.pinhole().at(vec2(x, y), {0, 0}).xy;
+            if (!(glm::length(pinhole) < 2e4f)) continue;
+            ++compared;
+            ASSERT_LT(glm::length(distortion.onFilm(pinhole) - vec2(x, y)), 0.005f) << x << " " << y;
+        }
+    EXPECT_GT(compared, 4500) << "more than all that has light";
 }
 
 std::string nameOf(const testing::TestParamInfo<Case>& info) {
