@@ -81,7 +81,7 @@ void repair(const LightField& field, LightFieldSample& s, glm::vec3& radiance, g
     if (!bad && motion != glm::vec3(0)) {
         badMotion = !isFinite(motion) || !isFinite(relativeMotion(s, motion));
         const bool limited = !badMotion && limitMotion(field, s, motion);
-        badMotion = badMotion || !isFinite(motion); // where positions are beyond all bounds
+        badMotion = badMotion || !isFinite({displacementPx(field, s, motion), 0}); // positions beyond bounds
         defects.limitedMotion += limited && !badMotion;
         bad = badMotion;
     }
