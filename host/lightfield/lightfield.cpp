@@ -16,6 +16,8 @@ namespace {
 
 /// Largest |(u, v)|: rounding may put a sample of the rim a little outside.
 constexpr float kLensRadiusBound = 1.0001f;
+/// Nothing is blurred as wide, pixels; sums of slopes and squares stay finite.
+constexpr float kSlopeBound = 1e9f;
 
 /// Clears a component that is not finite or negative; returns which it was.
 void repairComponent(float& value, bool& nonFinite, bool& negative) {
@@ -75,8 +77,8 @@ void repair(const LightField& field, LightFieldSample& s, glm::vec3& radiance, g
 
     const bool badDepth = !(s.w > 0);
     const bool outsideLens = !(s.u * s.u + s.v * s.v <= kLensRadiusBound * kLensRadiusBound);
-    const bool badPosition =
-        !std::isfinite(s.x) || !std::isfinite(s.y) || !std::isfinite(s.t) || !std::isfinite(s.slope);
+    const bool badPosition = !std::isfinite(s.x) || !std::isfinite(s.y) || !std::isfinite(s.t) ||
+                             !(std::abs(s.slope) < kSlopeBound);
     bool bad = badDepth || outsideLens || badPosition, badMotion = false;
     if (!bad && motion != glm::vec3(0)) {
         badMotion = !isFinite(motion) || !isFinite(relativeMotion(s, motion));
