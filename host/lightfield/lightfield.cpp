@@ -19,9 +19,12 @@ constexpr float kLensRadiusBound = 1.0001f;
 /// Nothing is blurred as wide, pixels; sums of slopes and squares stay finite.
 constexpr float kSlopeBound = 1e9f;
 
+/// No light is as bright; a picture's sums, and products with reflectances, stay finite.
+constexpr float kRadianceBound = 1e15f;
+
 /// Clears a component that is not finite or negative; returns which it was.
 void repairComponent(float& value, bool& nonFinite, bool& negative) {
-    if (!std::isfinite(value)) {
+    if (!(std::abs(value) < kRadianceBound)) {
         nonFinite = true;
         value = 0;
     } else if (value < 0) {

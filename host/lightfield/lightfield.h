@@ -144,7 +144,7 @@ bool isThinLens(const LightField& field);
 /// What `sanitize` found; each count is of samples. Components of illumination, reflectance and reflection
 /// that are not finite or below zero are set to 0 without being counted: they are parts of the radiance.
 struct FieldDefects {
-    std::uint64_t nonFiniteRadiance = 0; ///< set to 0
+    std::uint64_t nonFiniteRadiance = 0; ///< or 1e15 and more: set to 0
     std::uint64_t negativeRadiance = 0;  ///< components below zero set to 0
     std::uint64_t badDepth = 0;    ///< w <= 0 or NaN: the sample is disabled (slope = NaN, never binned)
     std::uint64_t outsideLens = 0; ///< u, v outside the unit disc or NaN: disabled

@@ -93,9 +93,10 @@ RandomCase caseOf(int number) {
     if (draw.chance(0.1f)) test::spoil(field, draw);
     sanitize(field);
     drawView(drawn, draw);
+    // Where a small frame has much around it, each output has many samples to choose from.
+    const double work = std::max(double(field.frame.area()), double(field.samples.size()) / 20);
     const double most = draw.chance(0.05f) ? kMostOutputs : kUsuallyMostOutputs;
-    options.outputsPerPixel =
-        1 << draw.below(1 + std::clamp(int(std::log2(most / double(field.frame.area()))), 0, 8));
+    options.outputsPerPixel = 1 << draw.below(1 + std::clamp(int(std::log2(most / work)), 0, 8));
     return drawn;
 }
 
