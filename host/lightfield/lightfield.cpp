@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "lightfield/motion.h"
+#include "shared/reconstruct.h"
 
 #include <algorithm>
 #include <atomic>
@@ -16,8 +17,6 @@ namespace {
 
 /// Largest |(u, v)|: rounding may put a sample of the rim a little outside.
 constexpr float kLensRadiusBound = 1.0001f;
-/// Nothing is blurred as wide, pixels; sums of slopes and squares stay finite.
-constexpr float kSlopeBound = 1e9f;
 
 /// No light is as bright; a picture's sums, and products with reflectances, stay finite.
 constexpr float kRadianceBound = 1e15f;
@@ -80,8 +79,8 @@ void repair(const LightField& field, LightFieldSample& s, glm::vec3& radiance, g
 
     const bool badDepth = !(s.w > 0);
     const bool outsideLens = !(s.u * s.u + s.v * s.v <= kLensRadiusBound * kLensRadiusBound);
-    const bool badPosition = !std::isfinite(s.x) || !std::isfinite(s.y) || !std::isfinite(s.t) ||
-                             !(std::abs(s.slope) < kSlopeBound);
+    const bool badPosition =
+        !std::isfinite(s.x) || !std::isfinite(s.y) || !std::isfinite(s.t) || !(std::abs(s.slope) < kFarPx);
     bool bad = badDepth || outsideLens || badPosition, badMotion = false;
     if (!bad && motion != glm::vec3(0)) {
         badMotion = !isFinite(motion) || !isFinite(relativeMotion(s, motion));
