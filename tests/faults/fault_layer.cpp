@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cstdint>
 #include <cstdlib>
-#include <cstring>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -37,16 +37,24 @@ const Fault fault = faultFromEnvironment();
 std::atomic<std::uint64_t> calls = 0;
 std::atomic<bool> lost = false;
 
+PFN_vkGetInstanceProcAddr nextInstanceProc = nullptr;
+PFN_vkGetDeviceProcAddr nextDeviceProc = nullptr;
+VkDevice theDevice = VK_NULL_HANDLE; ///< the program has one
+
+/// A lost device runs nothing more: what the driver still runs, it may end first.
+void loseDevice() {
+    lost = true;
+    if (!theDevice) return;
+    reinterpret_cast<PFN_vkDeviceWaitIdle>(nextDeviceProc(theDevice, "vkDeviceWaitIdle"))(theDevice);
+}
+
 /// Whether the call that is made now fails; it can by losing the device only where that is true.
 bool strikes(bool canLoseDevice) {
     if (fault.isLoss() && !canLoseDevice) return false;
     const bool now = ++calls == fault.number;
-    if (now && fault.isLoss()) lost = true;
+    if (now && fault.isLoss()) loseDevice();
     return now || lost;
 }
-
-PFN_vkGetInstanceProcAddr nextInstanceProc = nullptr;
-PFN_vkGetDeviceProcAddr nextDeviceProc = nullptr;
 
 /// A function that passes its calls on unless the fault strikes.
 template <int, bool canLoseDevice, typename Function>
@@ -125,8 +133,10 @@ VKAPI_ATTR VkResult VKAPI_CALL createDevice(VkPhysicalDevice physical, const VkD
     const PFN_vkGetInstanceProcAddr instanceProc = link->pfnNextGetInstanceProcAddr;
     nextDeviceProc = link->pfnNextGetDeviceProcAddr;
     if (strikes(true)) return fault.result;
-    return reinterpret_cast<PFN_vkCreateDevice>(instanceProc(nullptr, "vkCreateDevice"))(physical, info,
-                                                                                         allocator, device);
+    const auto create = reinterpret_cast<PFN_vkCreateDevice>(instanceProc(nullptr, "vkCreateDevice"));
+    const VkResult result = create(physical, info, allocator, device);
+    if (result == VK_SUCCESS) theDevice = *device;
+    return result;
 }
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL deviceProc(VkDevice device, const char* name) {
