@@ -13,8 +13,9 @@ namespace {
 TEST(CommandMutations, endWithADocumentedStatus) {
     const test::TempDir dir;
     const std::string scene = dir.file("s.pbrt"), out = dir.file("out.exr");
-    test::writeText(scene, "Film \"rgb\" \"integer xresolution\" 3 \"integer yresolution\" 2 "
-                           "Camera \"perspective\" WorldBegin Shape \"sphere\"");
+    test::writeText(
+        scene, "Film \"rgb\" \"integer xresolution\" 3 \"integer yresolution\" 2 \"string filename\" \"" +
+                   out + "\" Camera \"perspective\" WorldBegin Shape \"sphere\"");
     const std::vector<std::string> words = {"render",      "reference",  "sample",
                                             "reconstruct", "info",       "diff",
                                             "check",       "lens",       "devices",
