@@ -25,6 +25,10 @@ void catchInterrupts() {
     sigaction(SIGTERM, &action, nullptr);
 }
 
+void takeSignalsAsErrors() {
+    for (const int signal : {SIGXFSZ, SIGPIPE}) std::signal(signal, SIG_IGN);
+}
+
 bool interrupted() {
     return signalled;
 }

@@ -8,6 +8,10 @@ namespace slant::commands {
 /// at once.
 void catchInterrupts();
 
+/// From now on writing beyond the limit of a file's size, or to a pipe that nobody reads, fails as a full
+/// disc does, instead of ending the program with a temporary file left behind.
+void takeSignalsAsErrors();
+
 /// Whether such a signal has come. Any thread.
 bool interrupted();
 

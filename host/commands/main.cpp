@@ -73,6 +73,7 @@ int run(CLI::App& program, int argc, char** argv) {
 int main(int argc, char** argv) {
     try {
         commands::catchInterrupts();
+        commands::takeSignalsAsErrors();
         CLI::App program("Reconstructs images with defocus from a few light-field samples per pixel.",
                          "slant");
         program.set_version_flag("--version", "slant " SLANT_VERSION);

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "lightfield/motion.h"
+#include "shared/reconstruct.h"
 
 #include <algorithm>
 #include <atomic>
@@ -17,9 +18,12 @@ namespace {
 /// Largest |(u, v)|: rounding may put a sample of the rim a little outside.
 constexpr float kLensRadiusBound = 1.0001f;
 
+/// No light is as bright; a picture's sums, and products with reflectances, stay finite.
+constexpr float kRadianceBound = 1e15f;
+
 /// Clears a component that is not finite or negative; returns which it was.
 void repairComponent(float& value, bool& nonFinite, bool& negative) {
-    if (!std::isfinite(value)) {
+    if (!(std::abs(value) < kRadianceBound)) {
         nonFinite = true;
         value = 0;
     } else if (value < 0) {
@@ -76,12 +80,12 @@ void repair(const LightField& field, LightFieldSample& s, glm::vec3& radiance, g
     const bool badDepth = !(s.w > 0);
     const bool outsideLens = !(s.u * s.u + s.v * s.v <= kLensRadiusBound * kLensRadiusBound);
     const bool badPosition =
-        !std::isfinite(s.x) || !std::isfinite(s.y) || !std::isfinite(s.t) || !std::isfinite(s.slope);
+        !std::isfinite(s.x) || !std::isfinite(s.y) || !std::isfinite(s.t) || !(std::abs(s.slope) < kFarPx);
     bool bad = badDepth || outsideLens || badPosition, badMotion = false;
     if (!bad && motion != glm::vec3(0)) {
         badMotion = !isFinite(motion) || !isFinite(relativeMotion(s, motion));
         const bool limited = !badMotion && limitMotion(field, s, motion);
-        badMotion = badMotion || !isFinite(motion); // where positions are beyond all bounds
+        badMotion = badMotion || !isFinite({displacementPx(field, s, motion), 0}); // positions beyond bounds
         defects.limitedMotion += limited && !badMotion;
         bad = badMotion;
     }

@@ -144,11 +144,11 @@ bool isThinLens(const LightField& field);
 /// What `sanitize` found; each count is of samples. Components of illumination, reflectance and reflection
 /// that are not finite or below zero are set to 0 without being counted: they are parts of the radiance.
 struct FieldDefects {
-    std::uint64_t nonFiniteRadiance = 0; ///< set to 0
+    std::uint64_t nonFiniteRadiance = 0; ///< or 1e15 and more: set to 0
     std::uint64_t negativeRadiance = 0;  ///< components below zero set to 0
     std::uint64_t badDepth = 0;    ///< w <= 0 or NaN: the sample is disabled (slope = NaN, never binned)
     std::uint64_t outsideLens = 0; ///< u, v outside the unit disc or NaN: disabled
-    std::uint64_t badPosition = 0; ///< x, y, t or slope not finite: disabled
+    std::uint64_t badPosition = 0; ///< x, y or t not finite, or slope not within 1e9: disabled
     std::uint64_t badMotion = 0;   ///< motion not finite, by itself or over w: disabled
     /// Of the rest: within the shutter w' falls below w / 16, or passes zero. The depth's motion is limited
     /// to w' >= w / 16, and the velocity on screen at the sample's own time, (m.xy - m.w p) / w, is kept.

@@ -15,7 +15,8 @@ SceneSideSamples::SceneSideSamples(const LightField& field, bool moved) : field_
     parallelFor(0, moved_.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             LightFieldSample& s = moved_[i];
-            const SceneRay ray = field.lensMap.at({s.x, s.y}, {s.u, s.v});
+            const bool disabled = std::isnan(s.slope); // its place may lie anywhere
+            const SceneRay ray = disabled ? SceneRay{} : field.lensMap.at({s.x, s.y}, {s.u, s.v});
             const vec3& m = ray.filmMetric;
             s.x = ray.xy.x;
             s.y = ray.xy.y;

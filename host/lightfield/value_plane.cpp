@@ -49,7 +49,10 @@ glm::vec3 unchecked(const LightField& field, ValuePlane plane, std::size_t sampl
 } // namespace
 
 glm::vec3 valueOf(const LightField& field, ValuePlane plane, std::size_t sample) {
-    const auto valid = [](float value) { return std::isfinite(value) && value > 0 ? value : 0.f; };
+    const float most = 1e30f; // sums stay finite
+    const auto valid = [=](float value) {
+        return std::isfinite(value) && value > 0 ? std::min(value, most) : 0.f;
+    };
     const glm::vec3 value = unchecked(field, plane, sample);
     return {valid(value.x), valid(value.y), valid(value.z)};
 }

@@ -30,8 +30,9 @@ enum class ValuePlane {
     direct
 };
 
-/// The value of one sample. Whatever is negative or not finite is 0; albedo and normal of a field without
-/// them are those of a sample that hit nothing, and nothing moves in a field without motions.
+/// The value of one sample. Whatever is negative or not finite is 0, and nothing is more than 1e30; albedo
+/// and normal of a field without them are those of a sample that hit nothing, and nothing moves in a field
+/// without motions.
 glm::vec3 valueOf(const LightField& field, ValuePlane plane, std::size_t sample);
 
 inline float fromNormalValue(float value) {

@@ -39,7 +39,7 @@ Order sortedSamples(const Points& points, const Rect& region, float marginPx, co
     return order;
 }
 
-/// Bounds of a brick while its samples are gathered.
+/// Bounds of a brick while its samples are gathered. Zeros have no sign in them (lib/ordered_float.glsl).
 struct BrickBounds {
     uint key; ///< of the brick
     ivec2 first{255}, last{0};
@@ -54,16 +54,17 @@ struct BrickBounds {
     void add(ivec2 cell, float slope, float ownRatio) {
         first = glm::min(first, cell);
         last = glm::max(last, cell);
-        slopeMin = std::min(slopeMin, slope);
-        slopeMax = std::max(slopeMax, slope);
+        slopeMin = std::min(slopeMin, slope + 0.f);
+        slopeMax = std::max(slopeMax, slope + 0.f);
         radiusRatio = std::min(radiusRatio, ownRatio);
     }
 
     void add(const MovingPoint& point, float rank) {
-        const vec2 drift = driftOf(point, motion.center);
+        const vec2 drift = driftOf(point, motion.center) + 0.f;
         motion.low = glm::min(motion.low, drift);
         motion.high = glm::max(motion.high, drift);
-        const float rate = point.motion.depthRate;
+        const float rate = point.motion.depthRate + 0.f;
+        rank += 0.f;
         motion.depthRate = vec2(std::min(motion.depthRate.x, rate), std::max(motion.depthRate.y, rate));
         ranks = vec2(std::min(ranks.x, rank), std::max(ranks.y, rank));
     }

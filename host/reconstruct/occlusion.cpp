@@ -52,7 +52,7 @@ std::vector<uint> countStopped(const SceneSideSamples& source, const GridLayout&
             const LightFieldSample& s = points.sample(i);
             if (!isFollowed(layout, vec2(s.x, s.y)) || !(glm::abs(s.slope) < kFarPx))
                 continue; // disabled ones are far
-            const float rank = points.move() ? rankOf(motion.layout, s.slope, 1 / s.w) : s.slope;
+            const float rank = points.move() ? rankOf(motion.layout, s.slope, points.nearness(i)) : s.slope;
             const int slot = points.move() ? slotAt(motion.layout, s.t) * blocksPerSlot(layout) : 0;
             int plane = std::max(int(first), firstPlaneBehind(layout, rank, grid.surfaceGap));
             for (; plane < int(last); ++plane) {

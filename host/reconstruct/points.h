@@ -4,6 +4,8 @@
 #include "lightfield/scene_side.h"
 #include "reconstruct/kernels.h"
 
+#include <algorithm>
+
 namespace slant {
 
 /// Where nothing moves they are as their samples have them, and their motions are 0.
@@ -16,9 +18,11 @@ public:
     std::size_t size() const { return samples_.size(); }
     bool move() const { return !motion_.empty(); }
     const LightFieldSample& sample(std::size_t i) const { return samples_[i]; }
-    /// Homogeneous motion over depth, and 1 / w: what atMiddle takes.
+    /// 1 / w, bounded so that it stays finite for depths of any size.
+    float nearness(std::size_t i) const { return std::min(1 / samples_[i].w, 1e30f); }
+    /// Homogeneous motion over depth, and nearness: what atMiddle takes.
     vec4 relativeMotion(std::size_t i) const {
-        return {slant::relativeMotion(samples_[i], motion_[i]), 1 / samples_[i].w};
+        return {slant::relativeMotion(samples_[i], motion_[i]), nearness(i)};
     }
     MovingPoint operator[](std::size_t i) const {
         const Trajectory seen = trajectoryOf(samples_[i]);

@@ -33,7 +33,10 @@ namespace {
 
 embree::DevicePointer newDevice() {
     embree::DevicePointer device(rtcNewDevice(nullptr));
-    if (!device) throw Error(ErrorCode::resources, "Embree cannot start on this processor");
+    if (!device)
+        throw Error(ErrorCode::resources, rtcGetDeviceError(nullptr) == RTC_ERROR_UNSUPPORTED_CPU
+                                              ? "Embree cannot start on this processor"
+                                              : "Embree cannot start: out of memory or threads");
     return device;
 }
 

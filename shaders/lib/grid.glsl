@@ -9,7 +9,7 @@
 SLANT_SHARED_BEGIN
 
 KERNEL bool isEnabled(IN(Trajectory) trajectory) {
-    return !(isnan(trajectory.slope) || isinf(trajectory.slope));
+    return abs(trajectory.slope) < kFarPx;
 }
 
 /// Whether any output of the region can use a sample (false for disabled samples).

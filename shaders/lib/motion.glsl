@@ -51,8 +51,10 @@ KERNEL Trajectory atTime(IN(Trajectory) trajectory, IN(Motion) motion, float tim
     return moved;
 }
 
+/// Bounded, so that differences of ranks stay finite.
 KERNEL float rankOf(IN(MotionLayout) layout_, float slope, float nearness) {
-    return layout_.rankPerSlope * (slope - layout_.c2) - layout_.rankPerNearness * nearness;
+    const float rank = layout_.rankPerSlope * (slope - layout_.c2) - layout_.rankPerNearness * nearness;
+    return clamp(rank, -kFarRank, kFarRank);
 }
 /// Ranks go with 1 / w.
 KERNEL float rankAt(float rank, float depthRate, float time) {

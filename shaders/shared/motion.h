@@ -30,6 +30,9 @@ SLANT_SHARED_CONSTANT int kMotionTexels = 4;
 /// shutter is as long as half the lens is wide (Lehtinen et al. 2011 take half the step in time, too).
 SLANT_SHARED_CONSTANT float kVelocityGap = 2.0f;
 
+/// No rank is farther from 0.
+SLANT_SHARED_CONSTANT float kFarRank = 1e30f;
+
 /// Bounds of a brick's motions. That of a sample is, relative to `center` in pixels,
 ///     p(time) = center + (p - center + time * drift) / (1 + time * depthRate).
 /// Two texels.

@@ -44,6 +44,9 @@ TEST(FuzzSeeds, neverDoWorseThanAnError) {
     for (const auto& [name, target] : {std::pair("scene", &test::fuzzScene),
                                        {"ply", &test::fuzzPly},
                                        {"picture", &test::fuzzPicture},
+                                       {"lens", &test::fuzzLens},
+                                       {"aperture", &test::fuzzAperture},
+                                       {"spd", &test::fuzzSpd},
                                        {"deep_exr", &test::fuzzDeepExr},
                                        {"tlfr", &test::fuzzTlfr}})
         for (const auto& entry :

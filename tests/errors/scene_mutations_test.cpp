@@ -52,6 +52,19 @@ TEST(SceneMutations, neverBreakThePictureReaders) {
     }
 }
 
+TEST(SceneMutations, neverBreakTheReadersOfSmallFiles) {
+    const std::string seeds = SLANT_SOURCE_DIR "/tests/fuzz/seeds/";
+    for (const auto& [file, target] : {std::pair("lens/dgauss-50mm.dat", &test::fuzzLens),
+                                       {"aperture/polygon", &test::fuzzAperture},
+                                       {"spd/lines.spd", &test::fuzzSpd},
+                                       {"scene/older.pbrt", &test::fuzzScene}}) {
+        SCOPED_TRACE(file);
+        const auto [read, refused] = test::survive(target, test::readText(seeds + file), 400);
+        EXPECT_GT(read, 5);
+        EXPECT_GT(refused, 5);
+    }
+}
+
 TEST(SceneMutations, everyPrefixIsReadOrRefused) {
     for (std::size_t length = 0; length < kScene.size(); ++length)
         EXPECT_NO_THROW(test::fuzzScene(kScene.substr(0, length)));

@@ -13,7 +13,7 @@ bash cmake/install_packages.sh cmake/fuzz_packages.txt
 cmake --preset fuzz
 cmake --build --preset fuzz
 export UBSAN_OPTIONS=print_stacktrace=1 ASAN_OPTIONS=detect_leaks=0
-for name in scene ply picture deep_exr tlfr; do
+for name in scene ply picture lens aperture spd deep_exr tlfr; do
     corpus="build/fuzz/corpus/$name"
     mkdir -p "$corpus"
     echo "== $name, $seconds s"

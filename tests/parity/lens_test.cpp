@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace slant {
 namespace {
@@ -74,6 +75,14 @@ TEST_F(LensParity, layerMapsServeAsTheSearchDoes) {
             // 0.018, noise of the outputs.
             EXPECT_LT(difference / sum, 0.025) << lens << ", " << spp;
         }
+}
+
+TEST_F(LensParity, samplesWithoutAPlaceAreLeftOut) {
+    LightField field = fieldThrough(kDoubleGauss, 4);
+    for (std::size_t i = 0; i < field.samples.size(); i += 5)
+        (i % 2 ? field.samples[i].u : field.samples[i].y) = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_GT(sanitize(field).outsideLens, 0u);
+    EXPECT_GT(runBoth(field, optionsOf(Method::full)).report.outputs, 0u);
 }
 
 TEST_F(LensParity, layerMapsDoNotDependOnMemory) {

@@ -101,6 +101,21 @@ TEST_F(MotionParity, anyMotion) {
 }
 
 /// A ball that crosses a wall behind a double Gauss, lit by a sky.
+TEST_F(MotionParity, anySlopeAndDepth) {
+    for (const bool pinhole : {false, true}) {
+        LightField field = moving(3, {.pinhole = pinhole});
+        const std::array slopes = {3e38f, -3e38f, 1e30f, -0.f};
+        const std::array depths = {1e-45f, 1e-38f, 3e38f};
+        for (std::size_t i = 0; i < field.samples.size(); i += 7) {
+            if (i % 2 == 0) field.motion[i] = glm::vec3(0);
+            field.samples[i].slope = slopes[i % slopes.size()];
+            field.samples[i].w = depths[i % depths.size()];
+        }
+        sanitize(field);
+        for (const Method method : kMethods) expectSame(field, method);
+    }
+}
+
 TEST_F(MotionParity, throughACompoundLens) {
     SilentMonitor monitor;
     const Scene scene = readSceneText(

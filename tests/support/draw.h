@@ -1,4 +1,4 @@
-// Random numbers and places for tests of kernels, the same in every run.
+// Random numbers and places for tests, the same in every run.
 #pragma once
 #include "support/synthetic.h"
 
@@ -13,6 +13,9 @@ struct Draw {
         return {x, (*this)(low, high)};
     }
     double part() { return double(random.uniform()); }
+    /// 0 to count - 1.
+    int below(int count) { return int(random.bits() % std::uint32_t(count)); }
+    bool chance(float share) { return random.uniform() < share; }
 };
 
 } // namespace slant::test

@@ -1,10 +1,13 @@
 // Readers of untrusted bytes as fuzz targets: they succeed or throw Error, and nothing else.
 #pragma once
+#include "camera/aperture.h"
+#include "camera/lens_system.h"
 #include "image/picture.h"
 #include "lightfield/deep_exr.h"
 #include "lightfield/summary.h"
 #include "lightfield/tlfr.h"
 #include "reconstruct/cpu_reconstructor.h"
+#include "scene/lens_file.h"
 #include "scene/ply.h"
 #include "support/memory_file.h"
 #include "support/scene_text.h"
@@ -38,6 +41,33 @@ inline bool fuzzPicture(const std::string& bytes) {
     static const TempDir dir;
     writeText(dir.file("a.tga"), bytes);
     return accepts([&] { readPicture(dir.file("a.tga")); });
+}
+
+/// A lens file, as far as the lens focused at a distance.
+inline bool fuzzLens(const std::string& bytes) {
+    return accepts([&] {
+        const LensPrescription lens = parseLens(bytes, "fuzz.dat");
+        LensSystem(lens, lens.surfaces[lens.stop].diameter);
+    });
+}
+
+/// The name of an aperture, as options and scenes give it.
+inline bool fuzzAperture(const std::string& bytes) {
+    return accepts([&] {
+        if (const auto shape = parseAperture(bytes, {})) Aperture(*shape).at({0.3f, -0.9f});
+    });
+}
+
+/// A sampled spectrum of light, of a reflectance and of a metal.
+inline bool fuzzSpd(const std::string& bytes) {
+    static const TempDir dir;
+    writeText(dir.file("a.spd"), bytes);
+    const std::string file = "[\"" + dir.file("a.spd") + "\"]";
+    return accepts([&] {
+        sceneOf("WorldBegin LightSource \"point\" \"spectrum I\" " + file +
+                " Material \"diffuse\" \"spectrum reflectance\" " + file +
+                " Material \"conductor\" \"spectrum eta\" " + file + " \"spectrum k\" " + file);
+    });
 }
 
 /// What is accepted goes through the next stages, if it is small.

@@ -167,6 +167,7 @@ TEST(OrderedBits, haveTheOrderOfTheirFloats) {
         if (!std::isnan(value)) values.push_back(value);
     }
     std::sort(values.begin(), values.end());
+    EXPECT_EQ(kernels.orderedBits(-0.f), kernels.orderedBits(0.f));
     for (std::size_t i = 0; i < values.size(); ++i) {
         const uint bits = kernels.orderedBits(values[i]);
         ASSERT_EQ(kernels.floatBits(bits), floatBitsToUint(values[i]));

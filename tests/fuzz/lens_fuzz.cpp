@@ -1,0 +1,7 @@
+// libFuzzer entry for lens files.
+#include "support/fuzz_targets.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    slant::test::fuzzLens(std::string(reinterpret_cast<const char*>(data), size));
+    return 0;
+}
