@@ -44,7 +44,7 @@ void requireBudget(std::uint64_t bytes, Rect bounds, double samplesPerPixel, con
         throw Error(
             ErrorCode::resources,
             fmt::format(
-                "{} x {} pixels with {:.4g} samples each need {:.0f} MiB of memory, the budget is {:.0f} MiB",
+                "{} x {} pixels with {:.6g} samples each need {:.0f} MiB of memory, the budget is {:.0f} MiB",
                 bounds.width(), bounds.height(), samplesPerPixel, double(bytes) / kMebibyte,
                 double(options.memoryBytes) / kMebibyte));
 }
