@@ -131,8 +131,18 @@ void VulkanEngine::takeFromCpu(const std::vector<vec4>& dense, std::span<const u
     for (const uint index : indices) dense_.upload(std::span(&dense[index], 1), index);
 }
 
+std::vector<vec3> VulkanEngine::binnedValues() const {
+    const DeviceBins& bins = bins_->bins();
+    std::vector<uint> samples(bins.grid.sampleCount);
+    std::vector<vec4> values(bins.grid.sampleCount);
+    bins.samples.download(samples);
+    bins.values.download(values);
+    return valuesOfSamples(samples, values, samples_.field().samples.size());
+}
+
 void VulkanEngine::takeInput(const Band& band) {
-    const DenseSamples input = denseFromInput(samples_.field(), plane_, band.region);
+    const DenseSamples input = bins_ ? denseFromInput(samples_.field(), binnedValues(), band.region)
+                                     : denseFromInput(samples_.field(), plane_, band.region);
     reserveDense(input.samples.size());
     dense_.upload(input.samples);
 }

@@ -50,6 +50,8 @@ private:
     void reserveDense(std::uint64_t texels);
     /// The CPU engine at the same point of the same picture, for loops too long for a shader.
     CpuEngine& cpu();
+    /// Of the binned samples, in the order of the field.
+    std::vector<vec3> binnedValues() const;
     void takeFromCpu(const std::vector<vec4>& dense, std::span<const uint> indices);
 
     Device& device_;

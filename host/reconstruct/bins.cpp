@@ -167,4 +167,14 @@ void takeValues(Bins& bins, const SceneSideSamples& samples, ValuePlane plane) {
     });
 }
 
+std::vector<vec3> valuesOfSamples(std::span<const uint> samples, std::span<const vec4> values,
+                                  std::size_t count) {
+    std::vector<vec3> ordered(count, vec3(0));
+    parallelFor(0, samples.size(), 1 << 14, [&](std::size_t first, std::size_t last) {
+        for (std::size_t record = first; record < last; ++record)
+            ordered[samples[record]] = vec3(values[record]);
+    });
+    return ordered;
+}
+
 } // namespace slant

@@ -27,4 +27,8 @@ Bins binSamples(const SceneSideSamples& samples, const BinScope& scope);
 
 void takeValues(Bins& bins, const SceneSideSamples& samples, ValuePlane plane);
 
+/// The values of records, put in the order of `count` samples; 0 for a sample that has no record.
+std::vector<vec3> valuesOfSamples(std::span<const uint> samples, std::span<const vec4> values,
+                                  std::size_t count);
+
 } // namespace slant

@@ -47,7 +47,13 @@ SearchCounts CpuEngine::lookThroughWindows(const Chunk& chunk, Monitor& monitor)
 }
 
 void CpuEngine::takeInput(const Band& band) {
-    input_ = denseFromInput(samples_.field(), plane_, band.region);
+    const LightField& field = samples_.field();
+    if (bins_)
+        input_ = denseFromInput(
+            field, valuesOfSamples(bins_->bins().samples, bins_->bins().values, field.samples.size()),
+            band.region);
+    else
+        input_ = denseFromInput(field, plane_, band.region);
     noteBytes(input_.samples.size() * sizeof(vec4));
 }
 

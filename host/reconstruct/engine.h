@@ -79,7 +79,8 @@ public:
     virtual void makeMap(const MapLayout& layout) = 0;
 
     // For each chunk: lists, classes and outputs from the layer map, outputs from the bins; or outputs from
-    // windows; or the input samples. They fill the dense samples. `monitor` advances by outputs.
+    // windows; or the input samples, with the values of the bins if there are any. They fill the dense
+    // samples. `monitor` advances by outputs.
     virtual void makeLists(const Chunk& chunk) = 0;
     virtual ListClasses lookUpMap(const Chunk& chunk, Monitor& monitor) = 0;
     virtual SearchCounts search(const Chunk& chunk, const ListWork& work, Monitor& monitor) = 0;

@@ -96,7 +96,11 @@ Image filmImage(const Rect& frame, const std::vector<vec4>& sums, std::uint64_t&
     return image;
 }
 
-DenseSamples denseFromInput(const LightField& field, ValuePlane plane, const Rect& region) {
+namespace {
+
+/// `valueAt` gives the value of a sample by its index.
+template <typename ValueAt>
+DenseSamples densePlanes(const LightField& field, const Rect& region, const ValueAt& valueAt) {
     const std::size_t planes = sampleCounts(field).max;
     DenseSamples dense{region, std::vector<vec4>(region.area() * planes, vec4(0, 0, 0, -1))};
     parallelFor(0, std::size_t(region.height()), 1, [&](std::size_t first, std::size_t last) {
@@ -114,11 +118,21 @@ DenseSamples denseFromInput(const LightField& field, ValuePlane plane, const Rec
                     const LightFieldSample& s = field.samples[sample];
                     if (std::isnan(s.slope)) continue; // disabled by sanitize
                     dense.samples[k * region.area() + std::size_t(j) * region.width() + i] =
-                        vec4(valueOf(field, plane, sample), positionCode(s.x - float(x), s.y - float(y)));
+                        vec4(valueAt(sample), positionCode(s.x - float(x), s.y - float(y)));
                 }
             }
     });
     return dense;
+}
+
+} // namespace
+
+DenseSamples denseFromInput(const LightField& field, ValuePlane plane, const Rect& region) {
+    return densePlanes(field, region, [&](std::size_t i) { return valueOf(field, plane, i); });
+}
+
+DenseSamples denseFromInput(const LightField& field, std::span<const vec3> values, const Rect& region) {
+    return densePlanes(field, region, [&](std::size_t i) { return values[i]; });
 }
 
 } // namespace slant

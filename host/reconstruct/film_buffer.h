@@ -51,5 +51,7 @@ Image filmImage(const Rect& frame, const std::vector<vec4>& sums, std::uint64_t&
 /// samples. Other pixels repeat theirs, so that all pixels have the same weight. Those that sanitize disabled
 /// are left out; pixels of `region` outside `bounds` have none.
 DenseSamples denseFromInput(const LightField& field, ValuePlane plane, const Rect& region);
+/// The same with these values, one for each sample.
+DenseSamples denseFromInput(const LightField& field, std::span<const vec3> values, const Rect& region);
 
 } // namespace slant

@@ -6,10 +6,18 @@
 #include "reconstruct/map_lookup.h"
 #include "reconstruct/window.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace slant {
 namespace {
+
+/// Where nothing is blurred by more than this, pixels have so many samples, and the noise of their shading
+/// was filtered, `auto` puts the samples themselves through the pixel filter: the first step of the ladder.
+/// From fewer samples, or noisy ones, outputs have less error.
+constexpr float kSharpPx = 0.1f;
+constexpr double kEnoughSamples = 3;
 
 /// One picture: what its stages share.
 class Picture {
@@ -23,9 +31,10 @@ public:
 
     const FilterTable& filter() const { return filter_; }
 
-    void fromInput() {
+    /// Of input samples: of the pattern, only what engines prepare for.
+    void fromInput(OutputPattern pattern = {}) {
         const int planes = int(sampleCounts(field_).max);
-        begin({});
+        begin(std::move(pattern));
         StageTimer timer(report_, "pixel_filter", "samples");
         timer.items = field_.samples.size();
         for (const Band& band : planBands(field_.frame, filter_, planes, maxSamples_)) {
@@ -62,7 +71,12 @@ public:
         if (field_.moves())
             for (const Intermediate i : {Intermediate::motions, Intermediate::brickMotions}) observe(i);
         const GridLayout& grid = engine_.grid();
-        const OutputPattern& pattern = begin(patternFor(largestSlope(grid), engine_.motion().fastestPx()));
+        OutputPattern outputs = patternFor(largestSlope(grid), engine_.motion().fastestPx());
+        if (usesMap && isSharp()) {
+            report_.mapShare.assign(field_.frame.area(), 0.5f); // as where outputs are in focus
+            return fromInput(std::move(outputs));
+        }
+        const OutputPattern& pattern = begin(std::move(outputs));
         const int texels = mapTexelsPerPixel(field_);
         const MotionGrid& motion = engine_.motion();
         const float reach = mapReach(grid, motion, pattern.lensScale, distortion_);
@@ -79,6 +93,17 @@ public:
     }
 
 private:
+    /// Whether samples with filtered shading show the picture as well as outputs would.
+    bool isSharp() const {
+        const auto isInFocus = [&](const LightFieldSample& s) { // as it was traced, and as it is looked at
+            return !(std::abs(s.slope) > kSharpPx ||
+                     view_.apertureScale * std::abs(s.slope + view_.slopeShift) > kSharpPx);
+        };
+        return traitsOf(options_.method).filtersShading && field_.hasShading() && !field_.moves() &&
+               field_.lensMap.empty() && sampleCounts(field_).mean >= kEnoughSamples &&
+               std::ranges::all_of(field_.samples, isInFocus);
+    }
+
     OutputPattern patternFor(float slopePx, float velocityPx) const {
         const PatternShutter shutter{field_.moves(), velocityPx, view_.shutterOpen,
                                      view_.shutterClose - view_.shutterOpen};

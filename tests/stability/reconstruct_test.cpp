@@ -3,6 +3,7 @@
 #include "image/metrics.h"
 #include "reconstruct/cpu_reconstructor.h"
 #include "support/intermediates.h"
+#include "support/shaded.h"
 #include "support/synthetic.h"
 
 #include <numeric>
@@ -147,6 +148,36 @@ TEST(ReconstructStability, smallDiscsKeepTheirBrightness) {
                     << "radius " << radius << ", slope " << slope << ", " << spp;
             }
         }
+}
+
+/// Where nothing is blurred, samples are filtered as they are, if there are enough of them and their noise is
+/// known.
+TEST(ReconstructStability, inFocusSamplesAreThePicture) {
+    const auto layersOf = [](float slope) {
+        return std::vector<synthetic::Layer>{
+            {slope, [](vec2 p) { return glm::length(p - 24.f) < 14; }, [](vec2 p) { return vec3(p.x / 48); }},
+            {0, [](vec2) { return true; }, [](vec2 p) { return vec3(0.5f, p.y / 48, 0.2f); }}};
+    };
+    const auto isPlain = [&](float slope, int spp, const LensView& view, bool known = true) {
+        LightField field = synthetic::sample(layersOf(slope), {0, 0, 48, 48}, 2, spp, 7);
+        if (known) test::lightUp(field, {.noise = 0});
+        ReconstructOptions options;
+        options.outputsPerPixel = 16;
+        options.anyFocus = true;
+        CpuReconstructor cpu;
+        SilentMonitor monitor;
+        ReconstructReport report;
+        const Image image = cpu.reconstruct(field, options, monitor, report, nullptr, view);
+        options.method = Method::box;
+        options.anyFocus = false;
+        return image.pixels == cpu.reconstruct(field, options, monitor, report, nullptr).pixels;
+    };
+    EXPECT_TRUE(isPlain(0.05f, 4, {}));
+    EXPECT_FALSE(isPlain(0.05f, 4, {}, false));
+    EXPECT_FALSE(isPlain(0.05f, 2, {}));
+    EXPECT_FALSE(isPlain(0.5f, 4, {}));
+    EXPECT_FALSE(isPlain(0.05f, 4, {.slopeShift = 2}));
+    EXPECT_FALSE(isPlain(4, 4, {.apertureScale = 0})); // traced out of focus
 }
 
 } // namespace
