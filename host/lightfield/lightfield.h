@@ -111,8 +111,8 @@ struct LightField : SampleSet {
     Rect frame;              ///< pixels of the picture to reconstruct
     int samplesPerPixel = 0; ///< of every pixel; 0 if pixels differ
     SlopeModel slopeModel;
-    Aperture aperture;                     ///< over which lens positions are spread
-    LensMap lensMap;                       ///< empty: a thin lens; else all pixels have equally many samples
+    Aperture aperture; ///< over which lens positions are spread
+    LensMap lensMap;   ///< empty: a thin lens; else pixels have equally many samples, halves aside
     std::vector<std::uint32_t> pixelStart; ///< if pixels differ: firstSample of each, and of one more
 
     std::size_t firstSample(std::size_t pixel) const {

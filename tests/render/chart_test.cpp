@@ -17,10 +17,11 @@ TEST(Chart, writesAllItsFilesAndResumes) {
                            "Translate 0 0 4 Camera \"perspective\" \"float fov\" 40\n"
                            "\"float lensradius\" 0.2 \"float focaldistance\" 3\n"
                            "WorldBegin LightSource \"distant\" Shape \"sphere\"\n");
-    const std::vector<std::string> words = {
-        "chart",     scene, "-o",          out,         "--spp",   "2",
-        "--outputs", "8",   "--truth-spp", "64",        "--cache", dir.file("cache"),
-        "--repeat",  "1",   "--quiet",     "--devices", "cpu"};
+    const std::vector<std::string> words = {"chart",       scene,        "-o",        out,
+                                            "--spp",       "2",          "--outputs", "8",
+                                            "--truth-spp", "64",         "--cache",   dir.file("cache"),
+                                            "--repeat",    "1",          "--quiet",   "--devices",
+                                            "cpu",         "--adaptive", "0.5"};
     const test::ProgramResult first = test::runSlant(words);
     ASSERT_EQ(first.status, 0) << first.err;
     EXPECT_EQ(first.err, "");
@@ -29,10 +30,11 @@ TEST(Chart, writesAllItsFilesAndResumes) {
     EXPECT_THAT(text("tiny.svg"), HasSubstr("relMSE"));
     EXPECT_THAT(text("tiny-flip.svg"), HasSubstr("FLIP"));
     EXPECT_THAT(text("results.csv"), HasSubstr("\ntiny,reference,16,0,cpu,"));
+    EXPECT_THAT(text("results.csv"), HasSubstr("\ntiny,auto adaptive,2,8,cpu,"));
     EXPECT_THAT(text("index.html"), HasSubstr("--truth-spp 64"));
     EXPECT_THAT(text("index.html"), HasSubstr("data:image/png;base64,iVBORw0KGgo"));
     const auto json = nlohmann::json::parse(text("results.json"));
-    EXPECT_GE(json["points"].size(), 4u);
+    EXPECT_GE(json["points"].size(), 8u);
 
     const auto csv = text("results.csv");
     ASSERT_EQ(test::runSlant(words).status, 0);

@@ -9,20 +9,12 @@ namespace slant {
 namespace {
 
 using test::average;
+using test::direction;
 using test::Estimate;
+using test::kNormal;
+using test::kTangent;
 using test::Random;
-
-const glm::vec3 kNormal = glm::normalize(glm::vec3(0.3f, -0.5f, 0.7f));
-const glm::vec3 kTangent(1, 0.2f, 0);
-
-glm::vec3 toWorld(glm::vec3 local) {
-    return Frame::along(kNormal, kTangent).toWorld(local);
-}
-
-glm::vec3 direction(float degrees, float azimuth) {
-    const float t = glm::radians(degrees), p = glm::radians(azimuth);
-    return toWorld({std::sin(t) * std::cos(p), std::sin(t) * std::sin(p), std::cos(t)});
-}
+using test::toWorld;
 
 /// Integral over the sphere of `value`, a function of a world direction.
 template <typename Value>

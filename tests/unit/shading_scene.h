@@ -2,6 +2,7 @@
 #pragma once
 #include "scene/scene.h"
 #include "trace/path.h"
+#include "trace/warp.h"
 
 #include <cstdint>
 #include <functional>
@@ -26,6 +27,20 @@ public:
 private:
     std::uint64_t state_;
 };
+
+/// A surface that lies askew, so that no axis is special.
+inline const glm::vec3 kNormal = glm::normalize(glm::vec3(0.3f, -0.5f, 0.7f));
+inline const glm::vec3 kTangent(1, 0.2f, 0);
+
+inline glm::vec3 toWorld(glm::vec3 local) {
+    return Frame::along(kNormal, kTangent).toWorld(local);
+}
+
+/// So many degrees from its normal, over 90 behind it.
+inline glm::vec3 direction(float degrees, float azimuth) {
+    const float t = glm::radians(degrees), p = glm::radians(azimuth);
+    return toWorld({std::sin(t) * std::cos(p), std::sin(t) * std::sin(p), std::cos(t)});
+}
 
 inline int addConstant(Scene& scene, glm::vec3 value) {
     Texture t;
